@@ -1,0 +1,283 @@
+//! The thesis's set: plain turnings, the king with a cross, the knight cut out of a box.
+//!
+//! Every piece is drawn in units of its own height. Heights are those of FIDE's equipment
+//! standard, in millimetres, beside a square of 57 mm; bases are 43 to 50 % of the height. The two
+//! widest bases, king and queen, are 2.78 units together, so that a piece that moves diagonally
+//! (it passes the centres beside its way at 2.83 units) touches none.
+
+use glam::{DAffine3, DVec2, DVec3};
+
+use super::PieceSet;
+use crate::geometry::transform::{rotation_x, rotation_y, rotation_z, scale, translation};
+use crate::geometry::{ControlPoint, Csg, Cuboid, Lathe, Profile, ProfileError, Sphere};
+
+/// World units of a millimetre: a square is 57 mm and 4 units wide.
+const MILLIMETRE: f64 = 4.0 / 57.0;
+
+/// A control point (u, v); the third says whether it is a corner.
+type Point = (f64, f64, bool);
+
+const KING: [Point; 16] = [
+    (0.0, 0.0, true),
+    (0.216, 0.0, true),
+    (0.216, 0.075, false),
+    (0.15, 0.1, true),
+    (0.13, 0.17, false),
+    (0.078, 0.3, false),
+    (0.066, 0.5, false),
+    (0.076, 0.6, true),
+    (0.13, 0.612, true),
+    (0.13, 0.642, true),
+    (0.08, 0.66, true),
+    (0.078, 0.73, false),
+    (0.128, 0.85, true),
+    (0.1, 0.885, false),
+    (0.03, 0.905, true),
+    (0.0, 0.905, true),
+];
+
+const QUEEN: [Point; 18] = [
+    (0.0, 0.0, true),
+    (0.225, 0.0, true),
+    (0.225, 0.08, false),
+    (0.155, 0.105, true),
+    (0.135, 0.18, false),
+    (0.078, 0.32, false),
+    (0.066, 0.52, false),
+    (0.076, 0.62, true),
+    (0.132, 0.632, true),
+    (0.132, 0.662, true),
+    (0.082, 0.68, true),
+    (0.078, 0.77, false),
+    (0.14, 0.9, true),
+    (0.118, 0.905, true),
+    (0.03, 0.88, true),
+    (0.068, 0.92, false),
+    (0.068, 1.0, false),
+    (0.0, 1.0, true),
+];
+
+const BISHOP: [Point; 16] = [
+    (0.0, 0.0, true),
+    (0.244, 0.0, true),
+    (0.244, 0.095, false),
+    (0.17, 0.125, true),
+    (0.145, 0.2, false),
+    (0.085, 0.34, false),
+    (0.074, 0.48, false),
+    (0.086, 0.56, true),
+    (0.15, 0.572, true),
+    (0.15, 0.605, true),
+    (0.085, 0.622, true),
+    (0.17, 0.71, false),
+    (0.12, 0.86, false),
+    (0.024, 0.935, true),
+    (0.068, 0.965, false),
+    (0.0, 1.0, true),
+];
+
+const ROOK: [Point; 14] = [
+    (0.0, 0.0, true),
+    (0.25, 0.0, true),
+    (0.25, 0.12, false),
+    (0.19, 0.155, true),
+    (0.165, 0.25, false),
+    (0.14, 0.42, false),
+    (0.145, 0.64, true),
+    (0.19, 0.67, true),
+    (0.19, 0.71, true),
+    (0.215, 0.73, true),
+    (0.222, 1.0, true),
+    (0.155, 1.0, true),
+    (0.15, 0.87, true),
+    (0.0, 0.87, true),
+];
+
+const PAWN: [Point; 14] = [
+    (0.0, 0.0, true),
+    (0.25, 0.0, true),
+    (0.25, 0.125, false),
+    (0.185, 0.16, true),
+    (0.155, 0.25, false),
+    (0.095, 0.42, false),
+    (0.085, 0.585, true),
+    (0.16, 0.6, true),
+    (0.16, 0.64, true),
+    (0.09, 0.66, true),
+    (0.185, 0.7, false),
+    (0.205, 0.86, false),
+    (0.14, 1.0, false),
+    (0.0, 1.0, true),
+];
+
+const KNIGHT_BASE: [Point; 9] = [
+    (0.0, 0.0, true),
+    (0.25, 0.0, true),
+    (0.25, 0.11, false),
+    (0.19, 0.145, true),
+    (0.215, 0.18, false),
+    (0.2, 0.225, false),
+    (0.175, 0.235, true),
+    (0.12, 0.33, false),
+    (0.0, 0.33, true),
+];
+
+/// Builds the set; curves get `subdivisions` steps (4 in the thesis, 2 where speed counts more).
+///
+/// # Errors
+/// When a profile is none; the built-in ones are tested.
+pub fn thesis_set(subdivisions: u32) -> Result<PieceSet, ProfileError> {
+    let turned = |points: &[Point]| turned(points, subdivisions);
+    Ok(PieceSet {
+        pawn: tall(50.0, turned(&PAWN)?),
+        knight: tall(60.0, turned(&KNIGHT_BASE)?.or(horse())),
+        bishop: tall(70.0, turned(&BISHOP)?.minus(cut())),
+        rook: tall(55.0, crenels().into_iter().fold(turned(&ROOK)?, Csg::minus)),
+        queen: tall(85.0, notches().fold(turned(&QUEEN)?, Csg::minus)),
+        king: tall(95.0, turned(&KING)?.or(cross())),
+    })
+}
+
+/// A piece of height 1 at its true height, in millimetres.
+fn tall(millimetres: f64, piece: Csg) -> Csg {
+    piece.placed(scale(millimetres * MILLIMETRE))
+}
+
+fn turned(points: &[Point], subdivisions: u32) -> Result<Csg, ProfileError> {
+    let control = points.iter().map(|&(u, v, corner)| ControlPoint {
+        at: DVec2::new(u, v),
+        corner,
+    });
+    let profile = Profile::new(control.collect())?;
+    Ok(Csg::leaf(Lathe::new(&profile, subdivisions)))
+}
+
+/// A box by half-sizes and middle, with a turn about its middle.
+fn block(half: [f64; 3], middle: [f64; 3], turn: DAffine3) -> Csg {
+    let place = translation(DVec3::from(middle)) * turn;
+    Csg::leaf(Cuboid::centered(DVec3::from(half))).placed(place)
+}
+
+fn upright(half: [f64; 3], middle: [f64; 3]) -> Csg {
+    block(half, middle, DAffine3::IDENTITY)
+}
+
+fn cross() -> Csg {
+    let stem = upright([0.019, 0.06, 0.019], [0.0, 0.94, 0.0]);
+    stem.or(upright([0.054, 0.019, 0.019], [0.0, 0.95, 0.0]))
+}
+
+/// The dents between the points of the queen's coronet.
+fn notches() -> impl Iterator<Item = Csg> {
+    (0..8).map(|index| {
+        let spot = rotation_y(45.0 * f64::from(index)).transform_point3(DVec3::X * 0.136);
+        Csg::leaf(Sphere {
+            center: spot + DVec3::Y * 0.908,
+            radius: 0.034,
+        })
+    })
+}
+
+/// The slot in the bishop's mitre.
+fn cut() -> Csg {
+    block(
+        [0.014, 0.15, 0.3],
+        [0.105, 0.83, 0.0],
+        rotation_z(-35.0),
+    )
+}
+
+/// The gaps between the rook's merlons: three slots through the axis.
+fn crenels() -> [Csg; 3] {
+    [0.0, 60.0, 120.0]
+        .map(|degrees| block([0.3, 0.08, 0.045], [0.0, 0.985, 0.0], rotation_y(degrees)))
+}
+
+/// The knight's head and neck, facing +x, cut out of one box as in the thesis.
+fn horse() -> Csg {
+    let body = upright([0.235, 0.39, 0.115], [0.045, 0.61, 0.0]);
+    let ears_apart = upright([0.1, 0.06, 0.035], [-0.01, 1.0, 0.0]);
+    let mouth = block([0.1, 0.008, 0.2], [0.29, 0.645, 0.0], rotation_z(16.0));
+    // Under the jaw and before the throat, two half-spaces at once.
+    let throat = beyond([0.09, 0.60], -102.0).and(beyond([0.09, 0.60], 24.0));
+    let cuts = [
+        beyond([0.06, 1.0], 40.0),
+        beyond([0.285, 0.7], -18.0),
+        throat,
+        beyond([-0.05, 0.985], 112.0),
+        beyond([-0.15, 0.9], 148.0),
+        ears_apart,
+        mouth,
+        beside(1.0),
+        beside(-1.0),
+        eye(1.0),
+        eye(-1.0),
+    ];
+    cuts.into_iter().fold(body, Csg::minus)
+}
+
+/// A box large enough to be all that lies beyond a line of the side view: through `point` (x, y),
+/// with its outward normal at `degrees` from x towards y.
+fn beyond(point: [f64; 2], degrees: f64) -> Csg {
+    let turn = rotation_z(degrees);
+    let middle = DVec3::new(point[0], point[1], 0.0) + turn.transform_vector3(DVec3::X);
+    block([1.0, 1.0, 1.0], middle.into(), turn)
+}
+
+/// What is cut from one side of the head (`side` is the sign of z), so that it narrows forwards.
+fn beside(side: f64) -> Csg {
+    let turn = rotation_y(side * 76.0);
+    let middle = DVec3::new(0.05, 1.25, side * 0.105) + turn.transform_vector3(DVec3::X * 0.5);
+    block([0.5, 0.75, 1.0], middle.into(), turn)
+}
+
+fn eye(side: f64) -> Csg {
+    let socket = Csg::leaf(Sphere {
+        center: DVec3::ZERO,
+        radius: 0.028,
+    });
+    socket.placed(translation(DVec3::new(0.085, 0.855, side * 0.105)) * rotation_x(0.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Solid;
+
+    fn millimetres(piece: &Csg) -> f64 {
+        piece.bounds().max.y / MILLIMETRE
+    }
+
+    /// Diameter of what stands on the board, in world units.
+    fn base(piece: &Csg) -> f64 {
+        let bounds = piece.bounds();
+        bounds.max.z - bounds.min.z
+    }
+
+    #[test]
+    fn heights_and_bases_follow_the_equipment_standard() {
+        let set = thesis_set(4).unwrap();
+        let pieces = [
+            (&set.king, 95.0),
+            (&set.queen, 85.0),
+            (&set.bishop, 70.0),
+            (&set.knight, 60.0),
+            (&set.rook, 55.0),
+            (&set.pawn, 50.0),
+        ];
+        for (piece, height) in pieces {
+            assert!((millimetres(piece) - height).abs() < 0.01 * height);
+            let share = base(piece) / piece.bounds().max.y;
+            assert!((0.40..=0.51).contains(&share), "{height} mm: base {share}");
+        }
+        let share_of_square = base(&set.king) / 4.0;
+        assert!((0.7..0.8).contains(&share_of_square), "{share_of_square}");
+    }
+
+    #[test]
+    fn a_diagonal_mover_clears_any_two_neighbours() {
+        let set = thesis_set(4).unwrap();
+        let widest = (base(&set.king) + base(&set.queen)) / 2.0;
+        assert!(widest < 8.0_f64.sqrt(), "{widest}");
+    }
+}

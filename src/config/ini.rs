@@ -1,0 +1,58 @@
+//! Lines of a Windows-style INI file, with their numbers. (rust-ini knows no line numbers, and
+//! turns the backslashes of Windows paths into escapes.)
+
+use super::Fault;
+
+/// A `[section]` with its keys, in the order of the file.
+pub struct Section<'a> {
+    pub line: usize,
+    pub name: &'a str,
+    pub entries: Vec<Entry<'a>>,
+}
+
+/// A `key = value`, both without the blanks round them.
+pub struct Entry<'a> {
+    pub line: usize,
+    pub key: &'a str,
+    pub value: &'a str,
+}
+
+/// Cuts `text` into sections; what is neither a section, an entry, a comment nor blank is a fault.
+pub fn read(text: &str) -> (Vec<Section<'_>>, Vec<Fault>) {
+    let mut sections: Vec<Section> = Vec::new();
+    let mut faults = Vec::new();
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    for (index, line) in text.lines().enumerate() {
+        let number = index + 1;
+        let content = line.split([';', '#']).next().unwrap_or_default().trim();
+        if content.is_empty() {
+            continue;
+        }
+        let name = content.strip_prefix('[').and_then(|rest| rest.strip_suffix(']'));
+        let complaint = match (name, content.split_once('='), sections.last_mut()) {
+            (Some(name), ..) => {
+                sections.push(Section {
+                    line: number,
+                    name: name.trim(),
+                    entries: Vec::new(),
+                });
+                continue;
+            }
+            (_, Some((key, value)), Some(section)) => {
+                section.entries.push(Entry {
+                    line: number,
+                    key: key.trim(),
+                    value: value.trim(),
+                });
+                continue;
+            }
+            (_, Some(_), None) => "stands before the first [section]",
+            (_, None, _) => "is neither a [section] nor a key=value",
+        };
+        faults.push(Fault {
+            line: number,
+            message: format!("`{content}` {complaint}"),
+        });
+    }
+    (sections, faults)
+}

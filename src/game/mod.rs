@@ -1,0 +1,114 @@
+//! Reading games: from PGN text to tags, a start position and legal moves.
+//!
+//! Three steps, each a file: `scan` cuts a stream into games and knows lines and tokens,
+//! `movetext` turns tokens into moves as written (with pgn-reader, and a tolerant reading of what
+//! it drops), `replay` plays them. What cannot be read becomes a [`Problem`] with its line and
+//! token; a game is shown up to its last good move, and the next game is read.
+
+mod movetext;
+mod replay;
+mod scan;
+mod select;
+mod source;
+mod start;
+
+pub use scan::{ScannedGame, Scanner};
+pub use select::{Moment, ParseMomentError, ParseSelectionError, Selection};
+pub use source::{Source, SourceError};
+
+use shakmaty::fen::Fen;
+use shakmaty::{Chess, Color, EnPassantMode, Move, Position, Setup};
+
+use crate::notation::Placement;
+
+/// One game of a file.
+#[derive(Clone, Debug)]
+pub struct Game {
+    /// The game's number in its file, from 1.
+    pub number: usize,
+    /// The line where the game begins, from 1.
+    pub line: usize,
+    /// Name and value, in the order of the file.
+    pub tags: Vec<(String, String)>,
+    /// Whether it is known where the game starts; if not, no position of it can be shown, and
+    /// `start` is empty.
+    pub start_is_known: bool,
+    pub start: Setup,
+    pub plies: Vec<Ply>,
+    /// The result as the movetext gives it, or the tag, or `*`.
+    pub result: String,
+    /// What could not be read, in the order of the file.
+    pub problems: Vec<Problem>,
+}
+
+/// A move that was played, and the position after it.
+#[derive(Clone, Debug)]
+pub struct Ply {
+    /// In standard algebraic notation, with `+` or `#`.
+    pub san: String,
+    pub played: Move,
+    pub after: Chess,
+}
+
+/// Something in the text that could not be used.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("line {line}: `{token}` {what}")]
+pub struct Problem {
+    pub line: usize,
+    /// The text in question, shortened where it is long.
+    pub token: String,
+    /// A clause that goes on after the token.
+    pub what: String,
+    /// Whether moves may be missing because of it.
+    pub loses_moves: bool,
+}
+
+impl Game {
+    /// Reads and replays a game that the scanner has cut out.
+    pub fn read(scanned: ScannedGame) -> Game {
+        replay::replay(scanned)
+    }
+
+    /// Whether every move of the text was understood and played.
+    pub fn is_whole(&self) -> bool {
+        !self.problems.iter().any(|problem| problem.loses_moves)
+    }
+
+    /// The value of the tag `name`, unless it is missing, empty or `?`.
+    pub fn tag(&self, name: &str) -> Option<&str> {
+        tag(&self.tags, name).filter(|value| !value.is_empty() && *value != "?")
+    }
+
+    /// Who plays `color`, or `?`.
+    pub fn player(&self, color: Color) -> &str {
+        self.tag(color.fold_wb("White", "Black")).unwrap_or("?")
+    }
+
+    /// Where pieces stand after `ply` half-moves; `ply` is at most `plies.len()`.
+    pub fn placement(&self, ply: usize) -> Placement {
+        match ply.checked_sub(1) {
+            None => Placement::from(&self.start.board),
+            Some(index) => Placement::from(self.plies[index].after.board()),
+        }
+    }
+
+    /// The position after `ply` half-moves as a FEN, with an en passant square only where the
+    /// capture is legal.
+    pub fn fen(&self, ply: usize) -> String {
+        match ply.checked_sub(1) {
+            None => start::fen(&self.start),
+            Some(index) => Fen::from_position(&self.plies[index].after, EnPassantMode::Legal).to_string(),
+        }
+    }
+
+    /// The move that led to the position after `ply` half-moves; none leads to the start.
+    pub fn san(&self, ply: usize) -> Option<&str> {
+        ply.checked_sub(1).map(|index| self.plies[index].san.as_str())
+    }
+}
+
+fn tag<'a>(tags: &'a [(String, String)], name: &str) -> Option<&'a str> {
+    tags.iter()
+        .find(|(known, _)| known.eq_ignore_ascii_case(name))
+        .map(|(_, value)| value.as_str())
+}

@@ -1,0 +1,174 @@
+//! From tokens to moves as they are written; whether they are legal is asked later.
+//!
+//! pgn-reader reads the cut game. It says nothing of words that it drops (`b8Q`, `e2-e4`, `o-o`,
+//! a castling with other hyphens), so its moves are held against the scanner's tokens: a token
+//! that it dropped gets a tolerant reading here, and a move of which the scanner knows nothing
+//! ends the game.
+
+use std::ops::ControlFlow;
+
+use pgn_reader::{Reader, SanPlus, Visitor};
+use shakmaty::san::San;
+use shakmaty::uci::UciMove;
+
+use super::scan::Token;
+
+/// What a token may mean.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Written {
+    pub san: Option<San>,
+    /// The squares as UCI writes them, where the token has that form too (`g1f3`).
+    pub uci: Option<UciMove>,
+    /// Whether the player passes (`--`, `Z0`).
+    pub null: bool,
+}
+
+/// The meanings of all tokens, up to the one where pgn-reader saw another game.
+pub fn read(tokens: &[Token], movetext: &[u8]) -> Vec<Written> {
+    let mut written: Vec<Written> = tokens.iter().map(|token| tolerant(&token.text)).collect();
+    let mut reached = 0;
+    for san in main_line(movetext) {
+        let same = |written: &Written| written.san.as_ref() == Some(&san);
+        match written[reached..].iter().position(same) {
+            Some(skipped) => reached += skipped + 1,
+            None => {
+                written.truncate(reached);
+                break;
+            }
+        }
+    }
+    written
+}
+
+/// The moves of the main line, as pgn-reader sees them.
+fn main_line(movetext: &[u8]) -> Vec<San> {
+    let read = Reader::new(movetext).read_game(&mut MainLine);
+    read.ok().flatten().unwrap_or_default()
+}
+
+struct MainLine;
+
+impl Visitor for MainLine {
+    type Tags = ();
+    type Movetext = Vec<San>;
+    type Output = Vec<San>;
+
+    fn begin_tags(&mut self) -> ControlFlow<Vec<San>> {
+        ControlFlow::Continue(())
+    }
+
+    fn begin_movetext(&mut self, (): ()) -> ControlFlow<Vec<San>, Vec<San>> {
+        ControlFlow::Continue(Vec::new())
+    }
+
+    fn san(&mut self, moves: &mut Vec<San>, san: SanPlus) -> ControlFlow<Vec<San>> {
+        moves.push(san.san);
+        ControlFlow::Continue(())
+    }
+
+    fn end_game(&mut self, moves: Vec<San>) -> Vec<San> {
+        moves
+    }
+}
+
+/// Reads a token in the ways that files really write moves.
+fn tolerant(token: &str) -> Written {
+    if let Ok(san) = SanPlus::from_ascii(token.as_bytes()) {
+        return Written {
+            san: Some(san.san),
+            uci: uci(token),
+            null: false,
+        };
+    }
+    let plain = plain(token);
+    Written {
+        san: SanPlus::from_ascii(plain.as_bytes()).ok().map(|san| san.san),
+        uci: uci(&plain),
+        null: matches!(token, "--" | "Z0"),
+    }
+}
+
+fn uci(text: &str) -> Option<UciMove> {
+    let lower = text.trim_end_matches(['+', '#']).to_ascii_lowercase();
+    UciMove::from_ascii(lower.as_bytes()).ok().filter(|m| matches!(m, UciMove::Normal { .. }))
+}
+
+/// The token as the standard writes it: castling with capital Os, no hyphen between squares, `=`
+/// before what a pawn becomes, no `e.p.`, one sign of check.
+fn plain(token: &str) -> String {
+    let token = token.replace(['–', '—', '−', '‐', '‑'], "-");
+    let body = token.trim_end_matches(['+', '#']);
+    let check = if token.contains('#') {
+        "#"
+    } else if body.len() < token.len() {
+        "+"
+    } else {
+        ""
+    };
+    let body = body.strip_suffix("e.p").or_else(|| body.strip_suffix("ep")).unwrap_or(body);
+    let castling: String =
+        body.chars().map(|c| if matches!(c, 'o' | '0') { 'O' } else { c }).collect();
+    if matches!(castling.as_str(), "O-O" | "O-O-O") {
+        return castling + check;
+    }
+    let mut squares: String =
+        body.chars().filter(|c| *c != '-').map(|c| if c == ':' { 'x' } else { c }).collect();
+    let promoted = squares.len().checked_sub(1).filter(|&last| {
+        squares.is_char_boundary(last)
+            && squares[last..].starts_with(['Q', 'R', 'B', 'N'])
+            && squares[..last].ends_with(['1', '8'])
+    });
+    if let Some(last) = promoted {
+        squares.insert(last, '=');
+    }
+    squares + check
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn san(text: &str) -> Option<San> {
+        San::from_ascii(text.as_bytes()).ok()
+    }
+
+    #[test]
+    fn moves_are_read_as_files_write_them() {
+        let cases = [
+            ("Nf3", "Nf3"),
+            ("b8Q", "b8=Q"),
+            ("axb8Q+", "axb8=Q"),
+            ("e2-e4", "e2e4"),
+            ("Ng1-f3", "Ng1f3"),
+            ("e4:d5", "exd5"),
+            ("exf6ep", "exf6"),
+            ("exf6e.p.", "exf6"),
+            ("o-o", "O-O"),
+            ("0-0-0", "O-O-O"),
+            ("O‑O", "O-O"),
+            ("O–O–O+", "O-O-O"),
+            ("Nf6++", "Nf6"),
+        ];
+        for (token, expected) in cases {
+            let token = token.trim_end_matches('.');
+            let expected = if token == "e4:d5" { "e4xd5" } else { expected };
+            assert_eq!(tolerant(token).san, san(expected), "{token}");
+        }
+    }
+
+    #[test]
+    fn uci_moves_keep_their_squares() {
+        assert_eq!(tolerant("g1f3").uci.map(|m| m.to_string()).as_deref(), Some("g1f3"));
+        assert_eq!(tolerant("d7d8R").uci.map(|m| m.to_string()).as_deref(), Some("d7d8r"));
+    }
+
+    #[test]
+    fn a_move_that_only_pgn_reader_sees_ends_the_game() {
+        let tokens = ["e4", "e5"].map(|text| Token {
+            line: 1,
+            text: text.to_owned(),
+        });
+        assert_eq!(read(&tokens, b"e4 e5").len(), 2);
+        assert_eq!(read(&tokens, b"e4 d5 e5").len(), 1);
+    }
+}

@@ -1,0 +1,94 @@
+//! Axis-aligned boxes round solids.
+
+use glam::{DAffine3, DVec3};
+
+use super::{Range, Ray};
+
+/// An axis-aligned box, from `min` to `max`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    pub min: DVec3,
+    pub max: DVec3,
+}
+
+impl Bounds {
+    /// The box that holds nothing; the neutral element of [`Bounds::union`].
+    pub const EMPTY: Bounds = Bounds {
+        min: DVec3::INFINITY,
+        max: DVec3::NEG_INFINITY,
+    };
+
+    /// The smallest box that holds all `points`.
+    pub fn of(points: impl IntoIterator<Item = DVec3>) -> Bounds {
+        points.into_iter().fold(Bounds::EMPTY, |bounds, point| Bounds {
+            min: bounds.min.min(point),
+            max: bounds.max.max(point),
+        })
+    }
+
+    /// The smallest box that holds both.
+    pub fn union(self, other: Bounds) -> Bounds {
+        Bounds {
+            min: self.min.min(other.min),
+            max: self.max.max(other.max),
+        }
+    }
+
+    /// The box that both have in common; it may be empty (`min > max`).
+    pub fn intersection(self, other: Bounds) -> Bounds {
+        Bounds {
+            min: self.min.max(other.min),
+            max: self.max.min(other.max),
+        }
+    }
+
+    /// The smallest box round this one after `transform`.
+    pub fn transformed(self, transform: &DAffine3) -> Bounds {
+        let corner = |index: usize| {
+            let pick = |bit: usize, low: f64, high: f64| if index & bit == 0 { low } else { high };
+            DVec3::new(
+                pick(1, self.min.x, self.max.x),
+                pick(2, self.min.y, self.max.y),
+                pick(4, self.min.z, self.max.z),
+            )
+        };
+        Bounds::of((0..8).map(|index| transform.transform_point3(corner(index))))
+    }
+
+    /// The part of `range` in which `ray` is inside the box, or `None`.
+    ///
+    /// A direction component of zero divides to ±infinity, which is right; on the very face it
+    /// divides to NaN, which `min` and `max` pass over.
+    pub fn clip(&self, ray: &Ray, range: Range) -> Option<Range> {
+        let low = (self.min - ray.origin) / ray.direction;
+        let high = (self.max - ray.origin) / ray.direction;
+        let mut clipped = range;
+        for axis in 0..3 {
+            clipped.min = low[axis].min(high[axis]).max(clipped.min);
+            clipped.max = low[axis].max(high[axis]).min(clipped.max);
+        }
+        (clipped.min <= clipped.max).then_some(clipped)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_ray_along_an_axis_is_clipped_by_that_axis_alone() {
+        let bounds = Bounds {
+            min: DVec3::ZERO,
+            max: DVec3::ONE,
+        };
+        let ray = |x, direction| Ray {
+            origin: DVec3::new(x, 0.5, -2.0),
+            direction,
+        };
+        let clipped = bounds.clip(&ray(0.5, DVec3::Z), Range::AHEAD);
+        assert_eq!(clipped, Some(Range { min: 2.0, max: 3.0 }));
+        assert_eq!(bounds.clip(&ray(1.5, DVec3::Z), Range::AHEAD), None);
+        assert_eq!(bounds.clip(&ray(0.5, DVec3::NEG_Z), Range::AHEAD), None);
+        assert_eq!(bounds.clip(&ray(0.5, DVec3::Z), Range::up_to(1.0)), None);
+    }
+}

@@ -1,0 +1,154 @@
+//! Constructive solid geometry: union, intersection and difference of solids, to any depth.
+
+use std::sync::Arc;
+
+use glam::{DAffine3, DVec3};
+
+use super::{Bounds, Crossing, Placed, Ray, Solid, Span, Spans};
+
+/// A tree of solids; a line is combined span by span from the leaves up (Turek 2008, 3.7.6).
+#[derive(Clone)]
+pub struct Csg {
+    node: Node,
+    bounds: Bounds,
+}
+
+#[derive(Clone)]
+enum Node {
+    Leaf(Arc<dyn Solid>),
+    Pair(Operation, Box<[Csg; 2]>),
+}
+
+#[derive(Clone, Copy)]
+enum Operation {
+    Union,
+    Intersection,
+    Difference,
+}
+
+impl Operation {
+    fn holds(self, in_first: bool, in_second: bool) -> bool {
+        match self {
+            Operation::Union => in_first || in_second,
+            Operation::Intersection => in_first && in_second,
+            Operation::Difference => in_first && !in_second,
+        }
+    }
+}
+
+impl Csg {
+    /// A tree of one solid.
+    pub fn leaf(solid: impl Solid + 'static) -> Csg {
+        Csg {
+            bounds: solid.bounds(),
+            node: Node::Leaf(Arc::new(solid)),
+        }
+    }
+
+    /// What lies in this or in `other`.
+    pub fn or(self, other: Csg) -> Csg {
+        let bounds = self.bounds.union(other.bounds);
+        self.joined(Operation::Union, other, bounds)
+    }
+
+    /// What lies in this and in `other`.
+    pub fn and(self, other: Csg) -> Csg {
+        let bounds = self.bounds.intersection(other.bounds);
+        self.joined(Operation::Intersection, other, bounds)
+    }
+
+    /// What lies in this but not in `other`.
+    pub fn minus(self, other: Csg) -> Csg {
+        let bounds = self.bounds;
+        self.joined(Operation::Difference, other, bounds)
+    }
+
+    /// The whole tree, moved by an invertible `transform`.
+    pub fn placed(self, transform: DAffine3) -> Csg {
+        Csg::leaf(Placed::new(Arc::new(self), transform))
+    }
+
+    fn joined(self, operation: Operation, other: Csg, bounds: Bounds) -> Csg {
+        Csg {
+            node: Node::Pair(operation, Box::new([self, other])),
+            bounds,
+        }
+    }
+}
+
+impl Solid for Csg {
+    fn bounds(&self) -> Bounds {
+        self.bounds
+    }
+
+    fn contains(&self, point: DVec3) -> bool {
+        match &self.node {
+            Node::Leaf(solid) => solid.contains(point),
+            Node::Pair(operation, pair) => {
+                let [first, second] = &**pair;
+                operation.holds(first.contains(point), second.contains(point))
+            }
+        }
+    }
+
+    fn spans(&self, ray: &Ray, spans: &mut Spans) {
+        let whole_line = super::Range {
+            min: f64::NEG_INFINITY,
+            max: f64::INFINITY,
+        };
+        if self.bounds.clip(ray, whole_line).is_none() {
+            return;
+        }
+        match &self.node {
+            Node::Leaf(solid) => solid.spans(ray, spans),
+            Node::Pair(operation, pair) => {
+                let [mut first, mut second] = [Spans::new(), Spans::new()];
+                pair[0].spans(ray, &mut first);
+                if !first.is_empty() || matches!(operation, Operation::Union) {
+                    pair[1].spans(ray, &mut second);
+                }
+                combine(*operation, &first, &second, spans);
+            }
+        }
+    }
+}
+
+/// Walks both lists by distance and keeps the stretches where `operation` holds. The wall that a
+/// difference cuts belongs to the second solid, turned inside out.
+fn combine(operation: Operation, first: &Spans, second: &Spans, spans: &mut Spans) {
+    let inside_out = matches!(operation, Operation::Difference);
+    let turned = |end: Crossing| Crossing {
+        normal: if inside_out { -end.normal } else { end.normal },
+        ..end
+    };
+    let ends = |list: &Spans, index: usize| {
+        list.get(index / 2).map(|span| if index % 2 == 0 { span.enter } else { span.exit })
+    };
+    let [mut i, mut j] = [0, 0];
+    let mut enter: Option<Crossing> = None;
+    loop {
+        let end = match (ends(first, i), ends(second, j)) {
+            (None, None) => break,
+            (Some(a), Some(b)) if a.t <= b.t => take(&mut i, a),
+            (Some(a), None) => take(&mut i, a),
+            (_, Some(b)) => take(&mut j, turned(b)),
+        };
+        // An odd number of ends passed: inside.
+        let inside = operation.holds(i % 2 == 1, j % 2 == 1);
+        match enter {
+            None if inside => enter = Some(end),
+            Some(start) if !inside => {
+                if start.t < end.t {
+                    spans.push(Span { enter: start, exit: end });
+                }
+                enter = None;
+            }
+            _ => {}
+        }
+    }
+}
+
+fn take(index: &mut usize, end: Crossing) -> Crossing {
+    *index += 1;
+    end
+}

@@ -1,0 +1,55 @@
+//! Solids and how rays meet them; one file a shape.
+//!
+//! Everything here is closed: a ray meets a [`Solid`] in *spans*, the stretches of the ray that
+//! lie inside it. Spans are what constructive solid geometry combines, and the first end of a
+//! span in front of the eye is what the eye sees. A new shape is a file with one `impl Solid`.
+
+mod bounds;
+mod csg;
+mod cuboid;
+mod curve;
+mod lathe;
+mod placed;
+mod ray;
+mod sphere;
+pub mod transform;
+
+pub use bounds::Bounds;
+pub use csg::Csg;
+pub use cuboid::Cuboid;
+pub use curve::{ControlPoint, Profile, ProfileError};
+pub use lathe::Lathe;
+pub use placed::Placed;
+pub use ray::{Crossing, Range, Ray, Span, Spans};
+pub use sphere::Sphere;
+
+use glam::DVec3;
+
+/// A closed body.
+pub trait Solid: Send + Sync {
+    /// The smallest box that is known to hold the whole solid.
+    fn bounds(&self) -> Bounds;
+
+    /// Whether `point` lies inside.
+    fn contains(&self, point: DVec3) -> bool;
+
+    /// Appends the stretches of the whole line of `ray` (negative distances too) that lie inside,
+    /// in ascending order and without overlap, with outward normals at their ends.
+    fn spans(&self, ray: &Ray, spans: &mut Spans);
+
+    /// The nearest crossing of the surface with a distance inside `range`.
+    fn nearest(&self, ray: &Ray, range: Range) -> Option<Crossing> {
+        let range = self.bounds().clip(ray, range)?;
+        let mut spans = Spans::new();
+        self.spans(ray, &mut spans);
+        spans
+            .iter()
+            .flat_map(|span| [span.enter, span.exit])
+            .find(|crossing| range.holds(crossing.t))
+    }
+
+    /// Whether the surface is crossed anywhere inside `range`.
+    fn blocks(&self, ray: &Ray, range: Range) -> bool {
+        self.nearest(ray, range).is_some()
+    }
+}

@@ -1,0 +1,79 @@
+//! A solid that is moved, turned or scaled.
+
+use std::sync::Arc;
+
+use glam::{DAffine3, DMat3, DVec3};
+
+use super::{Bounds, Crossing, Range, Ray, Solid, Span, Spans};
+
+/// A solid in another place: `transform` leads from its own space to the space round it.
+#[derive(Clone)]
+pub struct Placed {
+    solid: Arc<dyn Solid>,
+    to_own: DAffine3,
+    normals: DMat3,
+    bounds: Bounds,
+}
+
+impl Placed {
+    /// Places `solid`; `transform` must be invertible.
+    pub fn new(solid: Arc<dyn Solid>, transform: DAffine3) -> Placed {
+        let to_own = transform.inverse();
+        Placed {
+            bounds: solid.bounds().transformed(&transform),
+            normals: to_own.matrix3.transpose(),
+            to_own,
+            solid,
+        }
+    }
+
+    /// A point of the space round the solid, in the solid's own space.
+    pub fn own_point(&self, point: DVec3) -> DVec3 {
+        self.to_own.transform_point3(point)
+    }
+
+    fn own_ray(&self, ray: &Ray) -> Ray {
+        Ray {
+            origin: self.to_own.transform_point3(ray.origin),
+            direction: self.to_own.transform_vector3(ray.direction),
+        }
+    }
+
+    fn carried(&self, crossing: Crossing) -> Crossing {
+        Crossing {
+            t: crossing.t,
+            normal: (self.normals * crossing.normal).normalize(),
+        }
+    }
+}
+
+impl Solid for Placed {
+    fn bounds(&self) -> Bounds {
+        self.bounds
+    }
+
+    fn contains(&self, point: DVec3) -> bool {
+        self.solid.contains(self.own_point(point))
+    }
+
+    fn spans(&self, ray: &Ray, spans: &mut Spans) {
+        let mut own = Spans::new();
+        self.solid.spans(&self.own_ray(ray), &mut own);
+        spans.extend(own.into_iter().map(|span| Span {
+            enter: self.carried(span.enter),
+            exit: self.carried(span.exit),
+        }));
+    }
+
+    fn nearest(&self, ray: &Ray, range: Range) -> Option<Crossing> {
+        let range = self.bounds.clip(ray, range)?;
+        let crossing = self.solid.nearest(&self.own_ray(ray), range)?;
+        Some(self.carried(crossing))
+    }
+
+    fn blocks(&self, ray: &Ray, range: Range) -> bool {
+        self.bounds
+            .clip(ray, range)
+            .is_some_and(|range| self.solid.blocks(&self.own_ray(ray), range))
+    }
+}

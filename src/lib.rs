@@ -1,0 +1,43 @@
+//! lightsquare reads chess games, replays them and ray-traces them into numbered pictures.
+//!
+//! # One way for the data
+//! ```text
+//! PGN text ─ game ─ timeline ─ scene ─ tracer ─ output
+//!              │       │          │       │        └ numbered pictures, manifests, reports
+//!              │       │          │       └ Scene → pixels
+//!              │       │          └ Frame → bodies, materials, lights, camera
+//!              │       └ which pieces stand or move where at time t, and the camera's turn
+//!              └ tags, start position, legal moves
+//! notation: Placement ⇄ "VA1JB1…"   the seam: the chess side ends in it, the picture side starts
+//! ```
+//!
+//! | module | holds | may use |
+//! | --- | --- | --- |
+//! | [`notation`] | [`notation::Placement`]: pieces and squares of both players, in the thesis's letters | – |
+//! | [`game`] | reading PGN into games; selection | notation |
+//! | [`timeline`] | frames: at time *t* a placement, the movers between squares, each piece's identity | game, notation |
+//! | [`config`] | `config.ini`, typed and range-checked | – |
+//! | [`assets`] | piece sets as data | config, geometry |
+//! | [`geometry`] | rays, spans, bounds, transforms, curves, and one file a shape | – |
+//! | [`scene`] | materials, textures, lights, camera, board and pieces; builds a [`scene::Scene`] from a frame | geometry, config, assets, notation, timeline |
+//! | [`tracer`] | rays through a whole scene, shading, antialiasing; a picture in memory | geometry, scene, config |
+//! | [`output`] | pictures, manifests, reports; whole files only | – |
+//! | [`job`] | what to render: game → timeline → scene → tracer → output; inspect; diagram | all of the above |
+//!
+//! The binary (`main`, `cli`, `progress`) turns arguments into a typed job, shows how far it is,
+//! and sets the exit code; it alone prints. A test holds the imports against this table.
+//!
+//! Where this differs from the first design: a camera turn is part of the frame, as an angle about
+//! the board's middle, so that the timeline needs no geometry; and `tracer` reads the lights'
+//! type from `config`, which has no other.
+
+pub mod assets;
+pub mod config;
+pub mod game;
+pub mod geometry;
+pub mod job;
+pub mod notation;
+pub mod output;
+pub mod scene;
+pub mod timeline;
+pub mod tracer;

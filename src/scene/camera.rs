@@ -1,0 +1,124 @@
+//! The camera: from places on the picture to rays.
+
+use glam::DVec3;
+
+use crate::config;
+use crate::geometry::Ray;
+use crate::geometry::transform::{rotation_y, sin_cos};
+
+/// A pinhole camera in a left-handed world: x to the right, y up, z *into* the picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    position: DVec3,
+    right: DVec3,
+    up: DVec3,
+    forward: DVec3,
+    /// Half of the picture's width, as seen at distance 1.
+    half_width: f64,
+}
+
+impl Camera {
+    /// Sets the camera up. Its true angle from left to right is half of `fov`: the thesis takes
+    /// `h = FOV·π/180/2` and a distance of `(width/2) / tan(h/2)` (Turek 2008, 4.3).
+    pub fn new(settings: &config::Camera) -> Camera {
+        let forward = (settings.look_at - settings.position).normalize();
+        // Straight up or down there is no upright; rank 8 then points up in the picture.
+        let upright = if forward.cross(DVec3::Y).length_squared() < 1e-18 {
+            DVec3::Z
+        } else {
+            DVec3::Y
+        };
+        let level = upright.cross(forward).normalize();
+        let above = forward.cross(level);
+        // A positive roll turns a ray from x towards y, which turns the picture clockwise.
+        let (sin, cos) = sin_cos(settings.z_rot);
+        let (sin_half, cos_half) = sin_cos(settings.fov / 4.0);
+        Camera {
+            position: settings.position,
+            right: level * cos + above * sin,
+            up: above * cos - level * sin,
+            forward,
+            half_width: sin_half / cos_half,
+        }
+    }
+
+    /// This camera after a turn about the upright line through `middle`, in degrees; positive is
+    /// anticlockwise as seen from above.
+    pub fn orbited(&self, middle: DVec3, degrees: f64) -> Camera {
+        let turn = rotation_y(degrees);
+        Camera {
+            position: middle + turn.transform_vector3(self.position - middle),
+            right: turn.transform_vector3(self.right),
+            up: turn.transform_vector3(self.up),
+            forward: turn.transform_vector3(self.forward),
+            half_width: self.half_width,
+        }
+    }
+
+    /// The ray of length 1 through the point (`x`, `y`) of a picture of `width` × `height` pixels;
+    /// (0, 0) is the corner at the top left.
+    pub fn ray(&self, x: f64, y: f64, width: u32, height: u32) -> Ray {
+        let pixel = 2.0 * self.half_width / f64::from(width);
+        let across = (x - f64::from(width) / 2.0) * pixel;
+        let upwards = (f64::from(height) / 2.0 - y) * pixel;
+        Ray {
+            origin: self.position,
+            direction: (self.forward + self.right * across + self.up * upwards).normalize(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::Config;
+
+    fn seen_at(camera: &Camera, point: DVec3) -> (f64, f64) {
+        let to = point - camera.position;
+        let depth = to.dot(camera.forward) * camera.half_width;
+        (to.dot(camera.right) / depth, to.dot(camera.up) / depth)
+    }
+
+    #[test]
+    fn the_world_is_left_handed() {
+        let settings = config::Camera {
+            position: DVec3::new(14.0, 20.0, -30.0),
+            ..Config::default().camera
+        };
+        let camera = Camera::new(&settings);
+        let (a_file, _) = seen_at(&camera, DVec3::ZERO);
+        let (h_file, first_rank) = seen_at(&camera, DVec3::new(28.0, 0.0, 0.0));
+        let (_, eighth_rank) = seen_at(&camera, DVec3::new(28.0, 0.0, 28.0));
+        assert!(a_file < h_file);
+        assert!(first_rank < eighth_rank);
+    }
+
+    #[test]
+    fn a_fov_of_90_sees_45_degrees() {
+        let camera = Camera::new(&Config::default().camera);
+        let [left, right] = [0.0, 1000.0].map(|x| camera.ray(x, 300.0, 1000, 600).direction);
+        assert!((left.angle_between(right).to_degrees() - 45.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn positive_roll_turns_rays_from_x_towards_y() {
+        let mut settings = Config::default().camera;
+        let straight = Camera::new(&settings);
+        settings.z_rot = 90.0;
+        let rolled = Camera::new(&settings);
+        assert!(rolled.right.distance(straight.up) < 1e-12);
+        assert!(rolled.up.distance(-straight.right) < 1e-12);
+    }
+
+    #[test]
+    fn straight_down_has_rank_8_on_top() {
+        let settings = config::Camera {
+            position: DVec3::new(14.0, 60.0, 14.0),
+            ..Config::default().camera
+        };
+        let camera = Camera::new(&settings);
+        assert_eq!(seen_at(&camera, DVec3::new(14.0, 0.0, 14.0)), (0.0, 0.0));
+        let (x, y) = seen_at(&camera, DVec3::new(0.0, 0.0, 28.0));
+        assert!(x < 0.0 && y > 0.0);
+    }
+}

@@ -1,0 +1,55 @@
+//! Gradient noise (K. Perlin, *Improving Noise*, 2002), on a lattice of hashed gradients.
+
+use glam::{DVec3, I64Vec3};
+
+/// Noise at `point`: smooth, 0 at whole-numbered points, within −1 to 1, mean 0.
+pub fn perlin(point: DVec3) -> f64 {
+    let cell = point.floor();
+    let within = point - cell;
+    let fade = within * within * within * (within * (within * 6.0 - 15.0) + 10.0);
+    let corner = |x: f64, y: f64, z: f64| {
+        let offset = DVec3::new(x, y, z);
+        gradient((cell + offset).as_i64vec3()).dot(within - offset)
+    };
+    let mix = |a: f64, b: f64, t: f64| a + (b - a) * t;
+    let along_x = |y, z| mix(corner(0.0, y, z), corner(1.0, y, z), fade.x);
+    let along_y = |z| mix(along_x(0.0, z), along_x(1.0, z), fade.y);
+    mix(along_y(0.0), along_y(1.0), fade.z)
+}
+
+/// One of the twelve directions to the middles of a cube's edges, by a hash of the lattice point.
+fn gradient(point: I64Vec3) -> DVec3 {
+    let mut hash = (point.x as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15)
+        ^ (point.y as u64).wrapping_mul(0xC2B2_AE3D_27D4_EB4F)
+        ^ (point.z as u64).wrapping_mul(0x1656_67B1_9E37_79F9);
+    hash ^= hash >> 32;
+    hash = hash.wrapping_mul(0xD6E8_FEB8_6659_FD93);
+    hash ^= hash >> 32;
+    let sign = |bit: u64| if hash & bit == 0 { 1.0 } else { -1.0 };
+    match (hash >> 8) % 3 {
+        0 => DVec3::new(sign(1), sign(2), 0.0),
+        1 => DVec3::new(sign(1), 0.0, sign(2)),
+        _ => DVec3::new(0.0, sign(1), sign(2)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn noise_is_bounded_continuous_and_zero_on_the_lattice() {
+        assert_eq!(perlin(DVec3::new(3.0, -2.0, 7.0)), 0.0);
+        let mut last = perlin(DVec3::ZERO);
+        let mut sum = 0.0;
+        for step in 1..20_000 {
+            let t = f64::from(step) * 0.01;
+            let value = perlin(DVec3::new(t, 0.37 * t - 5.0, -0.71 * t));
+            assert!(value.abs() <= 1.0, "{value} at {t}");
+            assert!((value - last).abs() < 0.05, "a jump at {t}");
+            sum += value;
+            last = value;
+        }
+        assert!((sum / 20_000.0).abs() < 0.02, "mean {}", sum / 20_000.0);
+    }
+}

@@ -1,0 +1,73 @@
+//! Pieces with an identity, on squares and between them.
+
+use crate::notation::{Piece, Placement, Square};
+
+/// A place on or above the board, in squares: (0, 0) is the middle of a1, files go to the right
+/// and ranks away from White; the height counts from the board's surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spot {
+    pub file: f64,
+    pub rank: f64,
+    pub height: f64,
+}
+
+impl Spot {
+    /// The middle of `square`, on the board.
+    pub fn on(square: Square) -> Spot {
+        let (file, rank) = square.coords();
+        Spot {
+            file: f64::from(u32::from(file)),
+            rank: f64::from(u32::from(rank)),
+            height: 0.0,
+        }
+    }
+}
+
+/// A piece that stands on no square.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mover {
+    pub piece: Piece,
+    /// The square where the piece stood when the game began.
+    pub identity: Square,
+    pub spot: Spot,
+}
+
+/// Who stands on each square: the square where the piece was when the game began (a promoted
+/// pawn's stays the pawn's). It goes with the piece, and so does the grain of its wood.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Identities([Square; 64]);
+
+impl Default for Identities {
+    /// Every piece is named for the square where it stands.
+    fn default() -> Identities {
+        Identities(Square::ALL)
+    }
+}
+
+impl Identities {
+    /// The identity of the piece on `square`; for an empty square it means nothing.
+    pub fn get(&self, square: Square) -> Square {
+        self.0[square.to_usize()]
+    }
+
+    pub(super) fn set(&mut self, square: Square, identity: Square) {
+        self.0[square.to_usize()] = identity;
+    }
+}
+
+/// Pieces at rest.
+#[derive(Clone)]
+pub struct Position {
+    pub placement: Placement,
+    pub identities: Identities,
+}
+
+impl Position {
+    /// The position that a game starts from.
+    pub fn new(placement: Placement) -> Position {
+        Position {
+            placement,
+            identities: Identities::default(),
+        }
+    }
+}
