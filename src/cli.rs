@@ -110,19 +110,19 @@ pub struct RenderArgs {
     #[arg(long)]
     animate: bool,
     /// Frames a second, from 1 to 240
-    #[arg(long, value_name = "N", default_value = "25", value_parser = fps, requires = "animate")]
+    #[arg(long, value_name = "N", default_value = "25", value_parser = fps, allow_negative_numbers = true, requires = "animate")]
     fps: f64,
     /// Seconds that a move takes
-    #[arg(long, value_name = "S", default_value = "0.6", value_parser = seconds, requires = "animate")]
+    #[arg(long, value_name = "S", default_value = "0.6", value_parser = seconds, allow_negative_numbers = true, requires = "animate")]
     transition: f64,
     /// Seconds that a position stands
-    #[arg(long, value_name = "S", default_value = "0.8", value_parser = seconds, requires = "animate")]
+    #[arg(long, value_name = "S", default_value = "0.8", value_parser = seconds, allow_negative_numbers = true, requires = "animate")]
     pause: f64,
     /// Seconds that the first position stands
-    #[arg(long, value_name = "S", default_value = "1", value_parser = seconds, requires = "animate")]
+    #[arg(long, value_name = "S", default_value = "1", value_parser = seconds, allow_negative_numbers = true, requires = "animate")]
     first: f64,
     /// Seconds that the last position stands
-    #[arg(long, value_name = "S", default_value = "5", value_parser = seconds, requires = "animate")]
+    #[arg(long, value_name = "S", default_value = "5", value_parser = seconds, allow_negative_numbers = true, requires = "animate")]
     last: f64,
     /// Turn the camera about the board by so many degrees over each game
     #[arg(long, value_name = "DEG", default_value = "0", value_parser = degrees, allow_negative_numbers = true)]
@@ -137,10 +137,10 @@ pub struct DiagramArgs {
     #[arg(value_name = "PGN", required_unless_present_any = ["fen", "white", "black"])]
     input: Option<PathBuf>,
     /// The game's number in its file
-    #[arg(long, value_name = "GAME", default_value = "1", value_parser = clap::value_parser!(u64).range(1..), requires = "input")]
+    #[arg(long, value_name = "GAME", default_value = "1", value_parser = clap::value_parser!(u64).range(1..), conflicts_with_all = ["fen", "white", "black"])]
     select: u64,
     /// The position: after a move (17w, 17b), after so many half-moves, start or end
-    #[arg(long, value_name = "MOVE", default_value = "end", requires = "input")]
+    #[arg(long, value_name = "MOVE", default_value = "end", conflicts_with_all = ["fen", "white", "black"])]
     at: Moment,
     /// A position as FEN, or the board part of one; it need not be legal
     #[arg(long, value_name = "FEN", value_parser = fen, conflicts_with_all = ["input", "white", "black"])]
@@ -178,10 +178,15 @@ struct PictureArgs {
     #[arg(short, long, value_name = "FILE", help_heading = "Picture")]
     config: Option<PathBuf>,
     /// Size in pixels, as in 1000x600
-    #[arg(long, value_name = "WxH", value_parser = size, help_heading = "Picture")]
+    #[arg(long, value_name = "WxH", value_parser = size, allow_hyphen_values = true, help_heading = "Picture")]
     size: Option<(u32, u32)>,
     /// Antialiasing: none (0), or a grid of rays in each pixel (1)
-    #[arg(long, value_name = "MODE", default_value = "grid", help_heading = "Picture")]
+    #[arg(
+        long,
+        value_name = "MODE",
+        default_value = "grid",
+        help_heading = "Picture"
+    )]
     aa: AntialiasingMode,
     /// Rays along one side of a pixel's grid, from 1 to 32
     #[arg(long, value_name = "N", default_value = "2", value_parser = clap::value_parser!(u32).range(1..=32), help_heading = "Picture")]
@@ -271,7 +276,11 @@ impl PictureArgs {
     fn into_settings(self) -> anyhow::Result<PictureSettings> {
         let here = PathBuf::from("config.ini");
         let config_file = self.config.or_else(|| here.is_file().then_some(here));
-        let mut config = config_file.as_deref().map(read_config).transpose()?.unwrap_or_default();
+        let mut config = config_file
+            .as_deref()
+            .map(read_config)
+            .transpose()?
+            .unwrap_or_default();
         if let Some((width, height)) = self.size {
             (config.width, config.height) = (width, height);
         }
@@ -291,12 +300,17 @@ fn read_config(path: &Path) -> anyhow::Result<Config> {
     if path.is_dir() {
         bail!("{}: is a folder, expected a config.ini", path.display());
     }
-    let bytes = std::fs::read(path).with_context(|| format!("{}: cannot be read", path.display()))?;
+    let bytes =
+        std::fs::read(path).with_context(|| format!("{}: cannot be read", path.display()))?;
     Config::parse(&String::from_utf8_lossy(&bytes)).with_context(|| path.display().to_string())
 }
 
 fn size(text: &str) -> Result<(u32, u32), String> {
-    let side = |text: &str| text.parse().ok().filter(|side| (1..=MAX_SIDE).contains(side));
+    let side = |text: &str| {
+        text.parse()
+            .ok()
+            .filter(|side| (1..=MAX_SIDE).contains(side))
+    };
     text.split_once(['x', 'X', '×'])
         .and_then(|(width, height)| Some((side(width)?, side(height)?)))
         .ok_or_else(|| {
@@ -328,7 +342,11 @@ fn degrees(text: &str) -> Result<f64, String> {
 struct Placed(Placement, String);
 
 fn fen(text: &str) -> Result<Placed, String> {
-    Placement::from_fen(text).map(|placement| Placed(placement, text.to_owned())).map_err(|error| {
-        format!("{error}, expected a FEN such as 8/8/8/3k4/8/8/4P3/4K3 w - - 0 1, or its board part")
-    })
+    Placement::from_fen(text)
+        .map(|placement| Placed(placement, text.to_owned()))
+        .map_err(|error| {
+            format!(
+                "{error}, expected a FEN such as 8/8/8/3k4/8/8/4P3/4K3 w - - 0 1, or its board part"
+            )
+        })
 }

@@ -44,7 +44,9 @@ pub enum NotationError {
         at: usize,
         found: char,
     },
-    #[error("{player}: the string ends at character {at} within a piece, expected a letter, a file and a rank")]
+    #[error(
+        "{player}: the string ends at character {at} within a piece, expected a letter, a file and a rank"
+    )]
     Incomplete { player: Color, at: usize },
     #[error(
         "{player}: the piece `{second}` at character {at} stands on the square of {} `{first}`",
@@ -71,7 +73,9 @@ const LETTERS: [(char, Role); 6] = [
 
 impl Placement {
     /// The empty board.
-    pub const EMPTY: Placement = Placement { squares: [None; 64] };
+    pub const EMPTY: Placement = Placement {
+        squares: [None; 64],
+    };
 
     /// Reads both players' strings; small letters are as good as capitals.
     ///
@@ -109,11 +113,12 @@ impl Placement {
                 at: at + 1,
                 found: triple[1],
             })?;
-            let rank = Rank::from_char(upper(2).ok_or(incomplete)?).ok_or(NotationError::NoRank {
-                player,
-                at: at + 2,
-                found: triple[2],
-            })?;
+            let rank =
+                Rank::from_char(upper(2).ok_or(incomplete)?).ok_or(NotationError::NoRank {
+                    player,
+                    at: at + 2,
+                    found: triple[2],
+                })?;
             let square = Square::from_coords(file, rank);
             let piece = Piece {
                 color: player,
@@ -255,18 +260,45 @@ mod tests {
     #[test]
     fn faults_name_the_character() {
         let cases = [
-            ("XA1", "", "white: `X` at character 1 is no piece, expected K, D, V, S, J or P"),
+            (
+                "XA1",
+                "",
+                "white: `X` at character 1 is no piece, expected K, D, V, S, J or P",
+            ),
             ("KE1QD1", "", "white: `Q` at character 4 is no piece"),
-            ("KI1", "", "white: `I` at character 2 is no file, expected A to H"),
-            ("", "KE9", "black: `9` at character 3 is no rank, expected 1 to 8"),
-            ("KE1D", "", "white: the string ends at character 4 within a piece"),
-            ("KE1DE1", "", "white: the piece `DE1` at character 4 stands on the square of the `KE1`"),
-            ("KE1", "dE1", "black: the piece `DE1` at character 1 stands on the square of white's `KE1`"),
+            (
+                "KI1",
+                "",
+                "white: `I` at character 2 is no file, expected A to H",
+            ),
+            (
+                "",
+                "KE9",
+                "black: `9` at character 3 is no rank, expected 1 to 8",
+            ),
+            (
+                "KE1D",
+                "",
+                "white: the string ends at character 4 within a piece",
+            ),
+            (
+                "KE1DE1",
+                "",
+                "white: the piece `DE1` at character 4 stands on the square of the `KE1`",
+            ),
+            (
+                "KE1",
+                "dE1",
+                "black: the piece `DE1` at character 1 stands on the square of white's `KE1`",
+            ),
             ("KÉ1", "", "white: `É` at character 2 is no file"),
         ];
         for (white, black, message) in cases {
             let error = Placement::parse(white, black).unwrap_err().to_string();
-            assert!(error.contains(message), "{white:?} {black:?} gave {error:?}");
+            assert!(
+                error.contains(message),
+                "{white:?} {black:?} gave {error:?}"
+            );
         }
     }
 }

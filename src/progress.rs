@@ -47,7 +47,11 @@ impl Terminal {
             ProgressMode::Plain | ProgressMode::None => false,
         };
         let plain = !loudness.quiet && !bar && mode != ProgressMode::None;
-        let target = if bar { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
+        let target = if bar {
+            ProgressDrawTarget::stderr()
+        } else {
+            ProgressDrawTarget::hidden()
+        };
         Terminal {
             bar: ProgressBar::with_draw_target(Some(0), target).with_style(style()),
             loudness,

@@ -8,7 +8,7 @@
 use glam::{DAffine3, DVec2, DVec3};
 
 use super::PieceSet;
-use crate::geometry::transform::{rotation_x, rotation_y, rotation_z, scale, translation};
+use crate::geometry::transform::{rotation_y, rotation_z, scale, translation};
 use crate::geometry::{ControlPoint, Csg, Cuboid, Lathe, Profile, ProfileError, Sphere};
 
 /// World units of a millimetre: a square is 57 mm and 4 units wide.
@@ -115,11 +115,11 @@ const KNIGHT_BASE: [Point; 9] = [
     (0.25, 0.0, true),
     (0.25, 0.11, false),
     (0.19, 0.145, true),
-    (0.215, 0.18, false),
-    (0.2, 0.225, false),
-    (0.175, 0.235, true),
-    (0.12, 0.33, false),
-    (0.0, 0.33, true),
+    (0.19, 0.17, false),
+    (0.225, 0.185, false),
+    (0.235, 0.21, false),
+    (0.235, 0.235, true),
+    (0.0, 0.235, true),
 ];
 
 /// Builds the set; curves get `subdivisions` steps (4 in the thesis, 2 where speed counts more).
@@ -180,11 +180,7 @@ fn notches() -> impl Iterator<Item = Csg> {
 
 /// The slot in the bishop's mitre.
 fn cut() -> Csg {
-    block(
-        [0.014, 0.15, 0.3],
-        [0.105, 0.83, 0.0],
-        rotation_z(-35.0),
-    )
+    block([0.014, 0.15, 0.3], [0.105, 0.83, 0.0], rotation_z(-35.0))
 }
 
 /// The gaps between the rook's merlons: three slots through the axis.
@@ -195,21 +191,23 @@ fn crenels() -> [Csg; 3] {
 
 /// The knight's head and neck, facing +x, cut out of one box as in the thesis.
 fn horse() -> Csg {
-    let body = upright([0.235, 0.39, 0.115], [0.045, 0.61, 0.0]);
-    let ears_apart = upright([0.1, 0.06, 0.035], [-0.01, 1.0, 0.0]);
-    let mouth = block([0.1, 0.008, 0.2], [0.29, 0.645, 0.0], rotation_z(16.0));
-    // Under the jaw and before the throat, two half-spaces at once.
-    let throat = beyond([0.09, 0.60], -102.0).and(beyond([0.09, 0.60], 24.0));
+    let body = upright([0.24, 0.385, 0.12], [0.045, 0.615, 0.0]);
+    // Under the jaw and before the throat: beyond both lines at once.
+    let throat = beyond([0.075, 0.6], -104.0).and(beyond([0.075, 0.6], 22.0));
     let cuts = [
-        beyond([0.06, 1.0], 40.0),
-        beyond([0.285, 0.7], -18.0),
+        // Forehead and nose, muzzle, chin.
+        beyond([0.07, 1.0], 40.0),
+        beyond([0.285, 0.7], -16.0),
         throat,
-        beyond([-0.05, 0.985], 112.0),
-        beyond([-0.15, 0.9], 148.0),
-        ears_apart,
-        mouth,
-        beside(1.0),
-        beside(-1.0),
+        // Crest, nape and back.
+        beyond([-0.04, 1.0], 108.0),
+        beyond([-0.13, 0.94], 138.0),
+        beyond([-0.19, 0.8], 164.0),
+        upright([0.09, 0.05, 0.032], [0.0, 1.0, 0.0]),
+        block([0.1, 0.009, 0.2], [0.3, 0.63, 0.0], rotation_z(18.0)),
+        // The sides, narrower to the nose and to the mane.
+        beside(0.06, 75.0),
+        beside(-0.08, 106.0),
         eye(1.0),
         eye(-1.0),
     ];
@@ -224,11 +222,15 @@ fn beyond(point: [f64; 2], degrees: f64) -> Csg {
     block([1.0, 1.0, 1.0], middle.into(), turn)
 }
 
-/// What is cut from one side of the head (`side` is the sign of z), so that it narrows forwards.
-fn beside(side: f64) -> Csg {
-    let turn = rotation_y(side * 76.0);
-    let middle = DVec3::new(0.05, 1.25, side * 0.105) + turn.transform_vector3(DVec3::X * 0.5);
-    block([0.5, 0.75, 1.0], middle.into(), turn)
+/// What is cut from both sides so that the body narrows away from `x`: `degrees` is the turn of
+/// the wall's outward normal from x towards z.
+fn beside(x: f64, degrees: f64) -> Csg {
+    let wall = |side: f64| {
+        let turn = rotation_y(side * degrees);
+        let middle = DVec3::new(x, 0.0, side * 0.112) + turn.transform_vector3(DVec3::X);
+        block([1.0, 2.0, 1.0], middle.into(), turn)
+    };
+    wall(1.0).or(wall(-1.0))
 }
 
 fn eye(side: f64) -> Csg {
@@ -236,7 +238,7 @@ fn eye(side: f64) -> Csg {
         center: DVec3::ZERO,
         radius: 0.028,
     });
-    socket.placed(translation(DVec3::new(0.085, 0.855, side * 0.105)) * rotation_x(0.0))
+    socket.placed(translation(DVec3::new(0.085, 0.85, side * 0.11)))
 }
 
 #[cfg(test)]

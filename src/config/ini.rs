@@ -28,7 +28,9 @@ pub fn read(text: &str) -> (Vec<Section<'_>>, Vec<Fault>) {
         if content.is_empty() {
             continue;
         }
-        let name = content.strip_prefix('[').and_then(|rest| rest.strip_suffix(']'));
+        let name = content
+            .strip_prefix('[')
+            .and_then(|rest| rest.strip_suffix(']'));
         let complaint = match (name, content.split_once('='), sections.last_mut()) {
             (Some(name), ..) => {
                 sections.push(Section {

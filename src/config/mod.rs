@@ -97,7 +97,7 @@ fn listed(faults: &[Fault]) -> String {
             line => format!("line {line}: {}", fault.message),
         })
         .collect();
-    lines.join("\n")
+    lines.join("\n  ")
 }
 
 impl Config {

@@ -97,13 +97,16 @@ impl Game {
     pub fn fen(&self, ply: usize) -> String {
         match ply.checked_sub(1) {
             None => start::fen(&self.start),
-            Some(index) => Fen::from_position(&self.plies[index].after, EnPassantMode::Legal).to_string(),
+            Some(index) => {
+                Fen::from_position(&self.plies[index].after, EnPassantMode::Legal).to_string()
+            }
         }
     }
 
     /// The move that led to the position after `ply` half-moves; none leads to the start.
     pub fn san(&self, ply: usize) -> Option<&str> {
-        ply.checked_sub(1).map(|index| self.plies[index].san.as_str())
+        ply.checked_sub(1)
+            .map(|index| self.plies[index].san.as_str())
     }
 }
 

@@ -20,7 +20,7 @@ pub struct Written {
     /// The squares as UCI writes them, where the token has that form too (`g1f3`).
     pub uci: Option<UciMove>,
     /// Whether the player passes (`--`, `Z0`).
-    pub null: bool,
+    pub passes: bool,
 }
 
 /// The meanings of all tokens, up to the one where pgn-reader saw another game.
@@ -77,20 +77,24 @@ fn tolerant(token: &str) -> Written {
         return Written {
             san: Some(san.san),
             uci: uci(token),
-            null: false,
+            passes: san.san == San::Null,
         };
     }
     let plain = plain(token);
     Written {
-        san: SanPlus::from_ascii(plain.as_bytes()).ok().map(|san| san.san),
+        san: SanPlus::from_ascii(plain.as_bytes())
+            .ok()
+            .map(|san| san.san),
         uci: uci(&plain),
-        null: matches!(token, "--" | "Z0"),
+        passes: token == "Z0",
     }
 }
 
 fn uci(text: &str) -> Option<UciMove> {
     let lower = text.trim_end_matches(['+', '#']).to_ascii_lowercase();
-    UciMove::from_ascii(lower.as_bytes()).ok().filter(|m| matches!(m, UciMove::Normal { .. }))
+    UciMove::from_ascii(lower.as_bytes())
+        .ok()
+        .filter(|m| matches!(m, UciMove::Normal { .. }))
 }
 
 /// The token as the standard writes it: castling with capital Os, no hyphen between squares, `=`
@@ -105,14 +109,22 @@ fn plain(token: &str) -> String {
     } else {
         ""
     };
-    let body = body.strip_suffix("e.p").or_else(|| body.strip_suffix("ep")).unwrap_or(body);
-    let castling: String =
-        body.chars().map(|c| if matches!(c, 'o' | '0') { 'O' } else { c }).collect();
+    let body = body
+        .strip_suffix("e.p")
+        .or_else(|| body.strip_suffix("ep"))
+        .unwrap_or(body);
+    let castling: String = body
+        .chars()
+        .map(|c| if matches!(c, 'o' | '0') { 'O' } else { c })
+        .collect();
     if matches!(castling.as_str(), "O-O" | "O-O-O") {
         return castling + check;
     }
-    let mut squares: String =
-        body.chars().filter(|c| *c != '-').map(|c| if c == ':' { 'x' } else { c }).collect();
+    let mut squares: String = body
+        .chars()
+        .filter(|c| *c != '-')
+        .map(|c| if c == ':' { 'x' } else { c })
+        .collect();
     let promoted = squares.len().checked_sub(1).filter(|&last| {
         squares.is_char_boundary(last)
             && squares[last..].starts_with(['Q', 'R', 'B', 'N'])
@@ -158,8 +170,14 @@ mod tests {
 
     #[test]
     fn uci_moves_keep_their_squares() {
-        assert_eq!(tolerant("g1f3").uci.map(|m| m.to_string()).as_deref(), Some("g1f3"));
-        assert_eq!(tolerant("d7d8R").uci.map(|m| m.to_string()).as_deref(), Some("d7d8r"));
+        assert_eq!(
+            tolerant("g1f3").uci.map(|m| m.to_string()).as_deref(),
+            Some("g1f3")
+        );
+        assert_eq!(
+            tolerant("d7d8r").uci.map(|m| m.to_string()).as_deref(),
+            Some("d7d8r")
+        );
     }
 
     #[test]

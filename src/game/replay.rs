@@ -21,7 +21,12 @@ pub fn replay(scanned: ScannedGame) -> Game {
         }
         (Ok(setup), _) => Some(setup),
         (Err(refusal), _) => {
-            problems.push(Problem::new(scanned.line, &refusal.token, &refusal.what, true));
+            problems.push(Problem::new(
+                scanned.line,
+                &refusal.token,
+                &refusal.what,
+                true,
+            ));
             None
         }
     };
@@ -83,10 +88,13 @@ fn play(
 
 /// The legal move that is meant, or a clause that says what is wrong.
 fn legal(position: &Chess, written: &Written) -> Result<Move, &'static str> {
-    if written.null {
+    if written.passes {
         return Err("is a null move, which no position can show");
     }
-    let by_squares = written.uci.as_ref().and_then(|uci| uci.to_move(position).ok());
+    let by_squares = written
+        .uci
+        .as_ref()
+        .and_then(|uci| uci.to_move(position).ok());
     match (&written.san, by_squares) {
         (Some(san), by_squares) => match (san.to_move(position), by_squares) {
             (Ok(played), _) | (Err(_), Some(played)) => Ok(played),

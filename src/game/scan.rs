@@ -125,7 +125,9 @@ impl<R: BufRead> Scanner<R> {
     fn bracket(&mut self, game: &mut Option<ScannedGame>) -> io::Result<bool> {
         let line = self.bytes.line;
         let in_place = self.bytes.at_line_start
-            || game.as_ref().is_none_or(|game| !game.has_moves() || game.result.is_some());
+            || game
+                .as_ref()
+                .is_none_or(|game| !game.has_moves() || game.result.is_some());
         let raw = self.bytes.bracket()?;
         if !in_place {
             if let Some(game) = game {
@@ -204,7 +206,8 @@ impl<R: BufRead> Scanner<R> {
         if let Some(game) = game {
             game.gap = true;
             game.movetext.push(b'{');
-            game.movetext.extend(text.iter().filter(|byte| !b"{}\r\n".contains(byte)));
+            game.movetext
+                .extend(text.iter().filter(|byte| !b"{}\r\n".contains(byte)));
             game.movetext.extend(b"} ");
         }
     }
@@ -258,13 +261,22 @@ impl<R: BufRead> Scanner<R> {
             self.bytes.at_line_start = at_line_start;
             return Ok(false);
         }
-        if let Some(game) = game.as_mut().filter(|game| !game.open_variations.is_empty()) {
+        if let Some(game) = game
+            .as_mut()
+            .filter(|game| !game.open_variations.is_empty())
+        {
             game.keep(text);
             return Ok(false);
         }
         let (number, rest) = split_number(text);
-        let mut words = number.map(Word::Number).into_iter().chain(classify(rest)).peekable();
-        let goes_on = words.peek().is_some_and(|word| matches!(word, Word::Number(_) | Word::Move(_)));
+        let mut words = number
+            .map(Word::Number)
+            .into_iter()
+            .chain(classify(rest))
+            .peekable();
+        let goes_on = words
+            .peek()
+            .is_some_and(|word| matches!(word, Word::Number(_) | Word::Move(_)));
         if goes_on && game.as_ref().is_some_and(ScannedGame::has_ended) {
             let mut next = ScannedGame::at(line);
             next.take(line, text, words);
@@ -310,13 +322,19 @@ impl ScannedGame {
     }
 
     fn report(&mut self, line: usize, token: &str, what: &str, loses_moves: bool) {
-        self.problems.push(Problem::new(line, token, what, loses_moves));
+        self.problems
+            .push(Problem::new(line, token, what, loses_moves));
     }
 
     fn tag(&mut self, line: usize, name: String, value: String) {
         self.gap = false;
         if super::tag(&self.tags, &name).is_some() {
-            self.report(line, &format!("[{name} \"{value}\"]"), "repeats a tag; the first one counts", false);
+            self.report(
+                line,
+                &format!("[{name} \"{value}\"]"),
+                "repeats a tag; the first one counts",
+                false,
+            );
         } else {
             self.tags.push((name, value));
         }
@@ -325,15 +343,25 @@ impl ScannedGame {
     /// Takes unreadable tags over as problems.
     fn take_unreadable(&mut self, tags: &mut Vec<(usize, String)>) {
         for (line, raw) in tags.drain(..) {
-            let name = raw.trim_start_matches(['[', ' ', '\t']).to_ascii_lowercase();
-            let says_start = ["fen", "setup", "variant"].iter().any(|tag| name.starts_with(tag));
+            let name = raw
+                .trim_start_matches(['[', ' ', '\t'])
+                .to_ascii_lowercase();
+            let says_start = ["fen", "setup", "variant"]
+                .iter()
+                .any(|tag| name.starts_with(tag));
             self.start_is_lost |= says_start && !self.has_moves();
-            self.report(line, &raw, "is no tag, expected [Name \"Value\"]", says_start);
+            self.report(
+                line,
+                &raw,
+                "is no tag, expected [Name \"Value\"]",
+                says_start,
+            );
         }
     }
 
     fn keep(&mut self, text: &str) {
-        self.movetext.extend(text.bytes().filter(|byte| *byte != b'['));
+        self.movetext
+            .extend(text.bytes().filter(|byte| *byte != b'['));
         self.movetext.push(b' ');
     }
 
@@ -346,7 +374,12 @@ impl ScannedGame {
                 }
                 Word::Result(result) => {
                     if self.result.as_ref().is_some_and(|known| *known != result) {
-                        self.report(line, text, "is a second result; the first one counts", false);
+                        self.report(
+                            line,
+                            text,
+                            "is a second result; the first one counts",
+                            false,
+                        );
                     }
                     self.result.get_or_insert(result);
                 }
@@ -504,7 +537,8 @@ impl<R: BufRead> Bytes<R> {
 
     /// A word: up to a blank or one of `{}()[]<;`, or up to a `$` within.
     fn word(&mut self) -> io::Result<Vec<u8>> {
-        let mut word = self.until(|byte| byte.is_ascii_whitespace() || b"{}()[]<;$".contains(&byte))?;
+        let mut word =
+            self.until(|byte| byte.is_ascii_whitespace() || b"{}()[]<;$".contains(&byte))?;
         if word.is_empty() {
             word.extend(self.bump()?);
             if word == b"$" {

@@ -70,7 +70,9 @@ impl FromStr for Moment {
         let by = |suffix, color| {
             text.strip_suffix(suffix).map(|number| {
                 let number: Option<u32> = number.parse().ok().filter(|number| *number > 0);
-                number.map(|number| Moment::After(number, color)).ok_or_else(error)
+                number
+                    .map(|number| Moment::After(number, color))
+                    .ok_or_else(error)
             })
         };
         match text {
@@ -100,8 +102,8 @@ impl Moment {
             Moment::Ply(ply) => ply,
             Moment::End => game.plies.len(),
             Moment::After(number, color) => {
-                let first = 2 * u64::from(game.start.fullmoves.get())
-                    + game.start.turn.fold_wb(0, 1);
+                let first =
+                    2 * u64::from(game.start.fullmoves.get()) + game.start.turn.fold_wb(0, 1);
                 let after = 2 * u64::from(number) + color.fold_wb(1, 2);
                 usize::try_from(after.checked_sub(first)?).ok()?
             }
@@ -123,7 +125,13 @@ mod tests {
 
     #[test]
     fn what_selects_nothing_is_refused() {
-        for (text, part) in [("", ""), ("0", "0"), ("3,,4", ""), ("9-5", "9-5"), ("1,x", "x")] {
+        for (text, part) in [
+            ("", ""),
+            ("0", "0"),
+            ("3,,4", ""),
+            ("9-5", "9-5"),
+            ("1,x", "x"),
+        ] {
             let error = text.parse::<Selection>().unwrap_err();
             assert_eq!(error.part, part, "{text:?}");
         }

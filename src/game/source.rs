@@ -62,7 +62,10 @@ impl Source {
             if path.is_dir() {
                 return Err(SourceError::Folder { name });
             }
-            Box::new(BufReader::with_capacity(BUFFER, File::open(path).map_err(&failed)?))
+            Box::new(BufReader::with_capacity(
+                BUFFER,
+                File::open(path).map_err(&failed)?,
+            ))
         };
         let beginning = reader.fill_buf().map_err(&failed)?;
         match beginning {
@@ -94,10 +97,13 @@ impl Source {
                         }
                         number += 1;
                         game.number = number;
-                        game.problems.splice(0..0, strays.drain(..).map(|mut stray: super::Problem| {
-                            stray.loses_moves = false;
-                            stray
-                        }));
+                        game.problems.splice(
+                            0..0,
+                            strays.drain(..).map(|mut stray: super::Problem| {
+                                stray.loses_moves = false;
+                                stray
+                            }),
+                        );
                         return Some(Ok(game));
                     }
                     Some(Err(error)) => {

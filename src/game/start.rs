@@ -18,19 +18,29 @@ pub struct Refusal {
 /// The start position that `tags` describe.
 pub fn setup(tags: &[(String, String)]) -> Result<Setup, Refusal> {
     let variant = tag(tags, "Variant").unwrap_or_default();
-    let plain: String =
-        variant.to_lowercase().chars().filter(|c| !matches!(c, ' ' | '-' | '_')).collect();
+    let plain: String = variant
+        .to_lowercase()
+        .chars()
+        .filter(|c| !matches!(c, ' ' | '-' | '_'))
+        .collect();
     if !STANDARD.contains(&plain.as_str()) && !CHESS960.contains(&plain.as_str()) {
         return Err(Refusal {
             token: format!("[Variant \"{variant}\"]"),
-            what: "is a variant that is not known, expected standard chess or Chess960".to_owned(),
+            what: "is a variant that cannot be played yet, expected standard chess or Chess960"
+                .to_owned(),
         });
     }
-    match tag(tags, "FEN").map(str::trim).filter(|fen| !fen.is_empty() && *fen != "?") {
-        Some(fen) => fen.parse::<Fen>().map(Fen::into_setup).map_err(|error| Refusal {
-            token: format!("[FEN \"{fen}\"]"),
-            what: format!("is no position: {error}"),
-        }),
+    match tag(tags, "FEN")
+        .map(str::trim)
+        .filter(|fen| !fen.is_empty() && *fen != "?")
+    {
+        Some(fen) => fen
+            .parse::<Fen>()
+            .map(Fen::into_setup)
+            .map_err(|error| Refusal {
+                token: format!("[FEN \"{fen}\"]"),
+                what: format!("is no position: {error}"),
+            }),
         None if tag(tags, "SetUp").map(str::trim) == Some("1") => Err(Refusal {
             token: "[SetUp \"1\"]".to_owned(),
             what: "promises a FEN, but there is none".to_owned(),

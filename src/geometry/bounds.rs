@@ -20,10 +20,12 @@ impl Bounds {
 
     /// The smallest box that holds all `points`.
     pub fn of(points: impl IntoIterator<Item = DVec3>) -> Bounds {
-        points.into_iter().fold(Bounds::EMPTY, |bounds, point| Bounds {
-            min: bounds.min.min(point),
-            max: bounds.max.max(point),
-        })
+        points
+            .into_iter()
+            .fold(Bounds::EMPTY, |bounds, point| Bounds {
+                min: bounds.min.min(point),
+                max: bounds.max.max(point),
+            })
     }
 
     /// The smallest box that holds both.
@@ -55,7 +57,8 @@ impl Bounds {
         Bounds::of((0..8).map(|index| transform.transform_point3(corner(index))))
     }
 
-    /// The part of `range` in which `ray` is inside the box, or `None`.
+    /// The part of `range` in which `ray` is inside the box, or `None`. Its ends are rounded: a
+    /// surface that touches the box may be crossed a hair outside.
     ///
     /// A direction component of zero divides to ±infinity, which is right; on the very face it
     /// divides to NaN, which `min` and `max` pass over.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
 
-use super::{Bounds, Crossing, Placed, Ray, Solid, Span, Spans};
+use super::{Bounds, Crossing, Placed, Range, Ray, Solid, Span, Spans, nearest_end};
 
 /// A tree of solids; a line is combined span by span from the leaves up (Turek 2008, 3.7.6).
 #[derive(Clone)]
@@ -92,11 +92,7 @@ impl Solid for Csg {
     }
 
     fn spans(&self, ray: &Ray, spans: &mut Spans) {
-        let whole_line = super::Range {
-            min: f64::NEG_INFINITY,
-            max: f64::INFINITY,
-        };
-        if self.bounds.clip(ray, whole_line).is_none() {
+        if self.bounds.clip(ray, Range::WHOLE_LINE).is_none() {
             return;
         }
         match &self.node {
@@ -111,6 +107,13 @@ impl Solid for Csg {
             }
         }
     }
+
+    fn nearest(&self, ray: &Ray, range: Range) -> Option<Crossing> {
+        match &self.node {
+            Node::Leaf(solid) => solid.nearest(ray, range),
+            Node::Pair(..) => nearest_end(self, ray, range),
+        }
+    }
 }
 
 /// Walks both lists by distance and keeps the stretches where `operation` holds. The wall that a
@@ -122,7 +125,13 @@ fn combine(operation: Operation, first: &Spans, second: &Spans, spans: &mut Span
         ..end
     };
     let ends = |list: &Spans, index: usize| {
-        list.get(index / 2).map(|span| if index % 2 == 0 { span.enter } else { span.exit })
+        list.get(index / 2).map(|span| {
+            if index % 2 == 0 {
+                span.enter
+            } else {
+                span.exit
+            }
+        })
     };
     let [mut i, mut j] = [0, 0];
     let mut enter: Option<Crossing> = None;
@@ -139,7 +148,10 @@ fn combine(operation: Operation, first: &Spans, second: &Spans, spans: &mut Span
             None if inside => enter = Some(end),
             Some(start) if !inside => {
                 if start.t < end.t {
-                    spans.push(Span { enter: start, exit: end });
+                    spans.push(Span {
+                        enter: start,
+                        exit: end,
+                    });
                 }
                 enter = None;
             }

@@ -59,7 +59,11 @@ impl Solid for Cuboid {
                 t: (self.max[axis] - origin) / direction,
                 normal: outward,
             };
-            let (near, far) = if direction > 0.0 { (low, high) } else { (high, low) };
+            let (near, far) = if direction > 0.0 {
+                (low, high)
+            } else {
+                (high, low)
+            };
             if near.t > enter.t {
                 enter = near;
             }

@@ -82,11 +82,12 @@ impl Profile {
 fn subdivide(points: &[ControlPoint]) -> Vec<ControlPoint> {
     let mut finer = Vec::with_capacity(2 * points.len());
     for (index, &point) in points.iter().enumerate() {
-        let neighbours = index.checked_sub(1).map(|i| points[i]).zip(points.get(index + 1));
+        let neighbours = index
+            .checked_sub(1)
+            .map(|i| points[i])
+            .zip(points.get(index + 1));
         let at = match neighbours {
-            Some((before, after)) if !point.corner => {
-                (before.at + 6.0 * point.at + after.at) / 8.0
-            }
+            Some((before, after)) if !point.corner => (before.at + 6.0 * point.at + after.at) / 8.0,
             _ => point.at,
         };
         finer.push(ControlPoint { at, ..point });

@@ -63,11 +63,12 @@ impl Lathe {
         let mut tree = Vec::with_capacity(2 * segments.len());
         build(&segments, 0, segments.len(), &mut tree);
         let radius = polygon.iter().fold(0.0, |radius: f64, p| radius.max(p.x));
-        let bounds = Bounds::of(
-            polygon
-                .iter()
-                .flat_map(|p| [DVec3::new(radius, p.y, radius), DVec3::new(-radius, p.y, -radius)]),
-        );
+        let bounds = Bounds::of(polygon.iter().flat_map(|p| {
+            [
+                DVec3::new(radius, p.y, radius),
+                DVec3::new(-radius, p.y, -radius),
+            ]
+        }));
         Lathe {
             segments,
             tree,
@@ -83,14 +84,17 @@ impl Lathe {
         range: Range,
         mut found: impl FnMut(f64, &'a Segment) -> f64,
     ) {
-        let Some(mut range) = self.bounds.clip(ray, range) else {
+        // The clipped range is finite and culls nodes, which have a margin; crossings are held
+        // against the range itself.
+        let Some(mut within) = self.bounds.clip(ray, range) else {
             return;
         };
+        let mut range = range;
         let line = AxisLine::new(ray);
         let mut pending: smallvec::SmallVec<[usize; 24]> = smallvec::smallvec![0];
         while let Some(index) = pending.pop() {
             let node = &self.tree[index];
-            if !line.may_meet(node, range) {
+            if !line.may_meet(node, within) {
                 continue;
             }
             if node.right != 0 {
@@ -102,6 +106,7 @@ impl Lathe {
             for t in line.meet(segment) {
                 if range.holds(t) {
                     range.max = range.max.min(found(t, segment));
+                    within.max = within.max.min(range.max + MARGIN);
                 }
             }
         }
@@ -117,7 +122,10 @@ fn build(segments: &[Segment], start: usize, end: usize, tree: &mut Vec<Node>) {
         right: 0,
         segment: start,
     };
-    for point in segments[start..end].iter().flat_map(|segment| [segment.from, segment.to]) {
+    for point in segments[start..end]
+        .iter()
+        .flat_map(|segment| [segment.from, segment.to])
+    {
         node.min_u2 = node.min_u2.min((point.x - MARGIN).max(0.0).powi(2));
         node.max_u2 = node.max_u2.max((point.x + MARGIN).powi(2));
         node.min_v = node.min_v.min(point.y - MARGIN);
@@ -204,15 +212,18 @@ impl AxisLine {
         };
         if nu == 0.0 {
             // A flat ring: the plane v = w / nv.
-            return [-h / g].into_iter().filter(|&t| t.is_finite() && owns(t)).collect();
+            return [-h / g]
+                .into_iter()
+                .filter(|&t| t.is_finite() && owns(t))
+                .collect();
         }
         let nu2 = nu * nu;
         let a = nu2 * self.qq - g * g;
         let b = nu2 * self.pq - h * g;
         let c = nu2 * self.pp - h * h;
         // b² − a·c, written so that nothing large cancels.
-        let discriminant = nu2
-            * (h * h * self.qq + g * g * self.pp - 2.0 * h * g * self.pq - nu2 * self.cross2);
+        let discriminant =
+            nu2 * (h * h * self.qq + g * g * self.pp - 2.0 * h * g * self.pq - nu2 * self.cross2);
         if discriminant < 0.0 {
             return smallvec::SmallVec::new();
         }
@@ -252,12 +263,8 @@ impl Solid for Lathe {
     }
 
     fn spans(&self, ray: &Ray, spans: &mut Spans) {
-        let whole_line = Range {
-            min: f64::NEG_INFINITY,
-            max: f64::INFINITY,
-        };
         let mut ends: smallvec::SmallVec<[Crossing; 8]> = smallvec::SmallVec::new();
-        self.crossings(ray, whole_line, |t, segment| {
+        self.crossings(ray, Range::WHOLE_LINE, |t, segment| {
             ends.push(Crossing {
                 t,
                 normal: segment.normal_at(ray.at(t)),

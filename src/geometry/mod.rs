@@ -39,17 +39,23 @@ pub trait Solid: Send + Sync {
 
     /// The nearest crossing of the surface with a distance inside `range`.
     fn nearest(&self, ray: &Ray, range: Range) -> Option<Crossing> {
-        let range = self.bounds().clip(ray, range)?;
-        let mut spans = Spans::new();
-        self.spans(ray, &mut spans);
-        spans
-            .iter()
-            .flat_map(|span| [span.enter, span.exit])
-            .find(|crossing| range.holds(crossing.t))
+        nearest_end(self, ray, range)
     }
 
     /// Whether the surface is crossed anywhere inside `range`.
     fn blocks(&self, ray: &Ray, range: Range) -> bool {
         self.nearest(ray, range).is_some()
     }
+}
+
+/// The nearest end of a span of `solid` within `range`.
+fn nearest_end(solid: &(impl Solid + ?Sized), ray: &Ray, range: Range) -> Option<Crossing> {
+    // The clipped range only rejects: its ends are rounded, and a face may lie on them.
+    solid.bounds().clip(ray, range)?;
+    let mut spans = Spans::new();
+    solid.spans(ray, &mut spans);
+    spans
+        .iter()
+        .flat_map(|span| [span.enter, span.exit])
+        .find(|crossing| range.holds(crossing.t))
 }

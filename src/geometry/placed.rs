@@ -66,14 +66,12 @@ impl Solid for Placed {
     }
 
     fn nearest(&self, ray: &Ray, range: Range) -> Option<Crossing> {
-        let range = self.bounds.clip(ray, range)?;
+        self.bounds.clip(ray, range)?;
         let crossing = self.solid.nearest(&self.own_ray(ray), range)?;
         Some(self.carried(crossing))
     }
 
     fn blocks(&self, ray: &Ray, range: Range) -> bool {
-        self.bounds
-            .clip(ray, range)
-            .is_some_and(|range| self.solid.blocks(&self.own_ray(ray), range))
+        self.bounds.clip(ray, range).is_some() && self.solid.blocks(&self.own_ray(ray), range)
     }
 }

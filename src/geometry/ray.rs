@@ -34,6 +34,12 @@ impl Range {
         max: f64::INFINITY,
     };
 
+    /// Everything, behind the origin too.
+    pub const WHOLE_LINE: Range = Range {
+        min: f64::NEG_INFINITY,
+        max: f64::INFINITY,
+    };
+
     /// Everything in front of the origin and nearer than `max`.
     pub fn up_to(max: f64) -> Range {
         Range { min: 0.0, max }

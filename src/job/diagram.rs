@@ -41,7 +41,10 @@ pub fn diagram(job: &DiagramJob) -> Result<RayCounts, JobError> {
     let (placement, texts) = read(&job.subject)?;
     let mut studio = Studio::new(&job.picture)?;
     let to_stdout = job.output == Path::new("-");
-    let folder = job.output.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let folder = job
+        .output
+        .parent()
+        .filter(|folder| !folder.as_os_str().is_empty());
     if let (false, Some(folder)) = (to_stdout, folder) {
         prepare_folder(folder)?;
     }

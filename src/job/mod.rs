@@ -28,9 +28,11 @@ pub enum JobError {
     Source(#[from] SourceError),
     #[error(transparent)]
     Output(#[from] OutputError),
-    #[error("{file}: no game is selected, it has {games}")]
+    #[error("{file}: none of the selected games is there, it has {games}")]
     NothingSelected { file: String, games: usize },
-    #[error("{file}: game {game} has no position {moment}, its last one is after {plies} half-moves")]
+    #[error(
+        "{file}: game {game} has no position {moment}, its last one is after {plies} half-moves"
+    )]
     NoSuchMoment {
         file: String,
         game: usize,

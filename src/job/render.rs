@@ -80,7 +80,15 @@ pub fn render(job: &RenderJob, progress: &dyn Progress) -> Result<Summary, JobEr
             if summary.cancelled {
                 break;
             }
-            report.push(render_game(job, batch, game, plan, &mut studio, progress, &mut summary)?);
+            report.push(render_game(
+                job,
+                batch,
+                game,
+                plan,
+                &mut studio,
+                progress,
+                &mut summary,
+            )?);
         }
         write_json_lines(&batch.folder.join("report.jsonl"), &report)?;
     }
@@ -129,7 +137,11 @@ fn read_batch(
     for game in Source::open(input)?.games() {
         let mut game = game?;
         seen += 1;
-        if job.selection.as_ref().is_some_and(|selection| !selection.contains(game.number)) {
+        if job
+            .selection
+            .as_ref()
+            .is_some_and(|selection| !selection.contains(game.number))
+        {
             continue;
         }
         let plan = plan(job, &mut game);
@@ -222,7 +234,11 @@ fn render_game(
     };
     write_json(&folder.join("game.json"), &manifest)?;
     let whole = game.is_whole() && !summary.cancelled;
-    let status = if whole { Status::Rendered } else { Status::Partial };
+    let status = if whole {
+        Status::Rendered
+    } else {
+        Status::Partial
+    };
     match status {
         Status::Rendered => summary.rendered += 1,
         _ => summary.partial += 1,

@@ -81,7 +81,8 @@ impl FrameRow {
         let placement = game.placement(frame.ply);
         FrameRow {
             file,
-            time: frame.time,
+            // To the microsecond: sums of decimal fractions leave crumbs behind.
+            time: (frame.time * 1e6).round() / 1e6,
             ply: frame.ply,
             san: game.san(frame.ply).map(str::to_owned),
             fen: game.fen(frame.ply),
@@ -95,7 +96,10 @@ impl FrameRow {
         let players = [Color::White, Color::Black].map(|color| game.player(color));
         vec![
             ("Title", players.join(" - ")),
-            ("Software", concat!("lightsquare ", env!("CARGO_PKG_VERSION")).to_owned()),
+            (
+                "Software",
+                concat!("lightsquare ", env!("CARGO_PKG_VERSION")).to_owned(),
+            ),
             ("Game", game.number.to_string()),
             ("Ply", self.ply.to_string()),
             ("SAN", self.san.clone().unwrap_or_else(|| "-".to_owned())),
@@ -105,7 +109,10 @@ impl FrameRow {
 }
 
 pub fn tags(game: &Game) -> Map<String, Value> {
-    game.tags.iter().map(|(name, value)| (name.clone(), value.clone().into())).collect()
+    game.tags
+        .iter()
+        .map(|(name, value)| (name.clone(), value.clone().into()))
+        .collect()
 }
 
 pub fn problems(problems: &[Problem]) -> Vec<ProblemRecord> {

@@ -42,7 +42,9 @@ fn write_whole(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), OutputError> {
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let folder = path
+        .parent()
+        .filter(|folder| !folder.as_os_str().is_empty());
     let write_renamed = || {
         let mut builder = tempfile::Builder::new();
         builder.prefix(".lightsquare-");
@@ -52,7 +54,9 @@ fn write_whole(
         let file = builder.tempfile_in(folder.unwrap_or(Path::new(".")))?;
         let mut buffered = BufWriter::new(file);
         write(&mut buffered)?;
-        let file = buffered.into_inner().map_err(io::IntoInnerError::into_error)?;
+        let file = buffered
+            .into_inner()
+            .map_err(io::IntoInnerError::into_error)?;
         file.persist(path).map_err(|error| error.error)?;
         Ok(())
     };

@@ -16,6 +16,10 @@ pub const MIDDLE: DVec3 = DVec3::new(3.5 * SQUARE, 0.0, 3.5 * SQUARE);
 /// Half of the playing surface's width.
 const HALF: f64 = 4.0 * SQUARE;
 
+/// What the slab lacks at its edges, so that its sides lie within the outer squares and take
+/// their colours.
+const RIM: f64 = 1e-3;
+
 /// How far the base reaches beyond the squares, and how far it lies below them.
 const FRAME: f64 = 2.2;
 const STEP: f64 = 0.12;
@@ -47,7 +51,7 @@ pub fn board() -> [Object; 2] {
         },
     };
     [
-        (block(HALF, -2.0 * STEP, 0.0), slab),
+        (block(HALF - RIM, -2.0 * STEP, 0.0), slab),
         (block(HALF + FRAME, -DEPTH, -STEP), base),
     ]
     .map(|(cuboid, material)| Object {

@@ -45,7 +45,8 @@ impl Film {
     /// first + moves × transition + (moves − 1) × pause + last.
     pub fn length(&self, moves: usize) -> f64 {
         let pauses = moves.saturating_sub(1) as f64;
-        self.first + moves as f64 * self.transition + pauses * self.pause + self.last
+        let until_last = self.first + moves as f64 * self.transition + pauses * self.pause;
+        until_last + self.last
     }
 
     /// When the position after so many moves is reached.
@@ -180,7 +181,11 @@ impl Timeline {
         if since_first <= 0.0 || moves == 0 {
             return self.at_rest(0, time);
         }
-        let begun = if period > 0.0 { since_first / period } else { f64::INFINITY };
+        let begun = if period > 0.0 {
+            since_first / period
+        } else {
+            f64::INFINITY
+        };
         if begun >= moves as f64 {
             return self.at_rest(moves, time);
         }
@@ -188,8 +193,7 @@ impl Timeline {
         let passed = (since_first - current as f64 * period) / film.transition;
         if passed < 1.0 {
             let position = &self.positions[current];
-            let (standing, movers) =
-                self.motions[current].under_way(position, passed.max(0.0));
+            let (standing, movers) = self.motions[current].under_way(position, passed.max(0.0));
             Frame {
                 placement: standing,
                 movers,

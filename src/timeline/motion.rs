@@ -53,7 +53,10 @@ impl Motion {
             Move::Put { to, .. } => (vec![], None, Some(to)),
         };
         Motion {
-            paths: paths.into_iter().filter(|(from, to, _)| from != to).collect(),
+            paths: paths
+                .into_iter()
+                .filter(|(from, to, _)| from != to)
+                .collect(),
             captured,
             dropped,
         }
@@ -106,7 +109,11 @@ fn on_the_way(from: Square, to: Square, hops: bool, passed: f64) -> Spot {
         file: mix(from.file, to.file, along),
         rank: mix(from.rank, to.rank, along),
         // A hop rises at once and stays high while it passes over other pieces.
-        height: if hops { HOP * (1.0 - (1.0 - arc).powi(2)) } else { GLIDE * arc },
+        height: if hops {
+            HOP * (1.0 - (1.0 - arc).powi(2))
+        } else {
+            GLIDE * arc
+        },
     }
 }
 

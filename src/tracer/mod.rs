@@ -4,6 +4,7 @@
 //! same for any number of threads. The arithmetic is scalar f64: the yardstick for quicker paths.
 
 mod antialiasing;
+mod hierarchy;
 mod shade;
 
 pub use antialiasing::Antialiasing;
@@ -45,6 +46,7 @@ impl std::ops::Add for RayCounts {
 
 /// Traces `scene` into a picture of `width` × `height` pixels, on the threads of the current pool.
 pub fn render(scene: &Scene, width: u32, height: u32, mode: Antialiasing) -> (RgbImage, RayCounts) {
+    let tracer = shade::Tracer::new(scene);
     let mut picture = RgbImage::new(width, height);
     let row_bytes = 3 * width as usize;
     let counts = picture
@@ -55,9 +57,10 @@ pub fn render(scene: &Scene, width: u32, height: u32, mode: Antialiasing) -> (Rg
             let mut counts = RayCounts::default();
             for (x, pixel) in row.chunks_exact_mut(3).enumerate() {
                 let color = mode.mean(|dx, dy| {
-                    let ray =
-                        scene.camera.ray(x as f64 + dx, y as f64 + dy, width, height);
-                    shade::trace(scene, &ray, &mut counts)
+                    let ray = scene
+                        .camera
+                        .ray(x as f64 + dx, y as f64 + dy, width, height);
+                    tracer.trace(&ray, &mut counts)
                 });
                 pixel.copy_from_slice(&bytes(color));
             }
@@ -69,5 +72,7 @@ pub fn render(scene: &Scene, width: u32, height: u32, mode: Antialiasing) -> (Rg
 
 /// The thesis knows no gamma: a channel is stored as it was computed.
 fn bytes(color: Rgb) -> [u8; 3] {
-    color.to_array().map(|channel| (channel.clamp(0.0, 1.0) * 255.0 + 0.5) as u8)
+    color
+        .to_array()
+        .map(|channel| (channel.clamp(0.0, 1.0) * 255.0 + 0.5) as u8)
 }

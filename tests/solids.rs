@@ -1,0 +1,148 @@
+//! What rays find in solids, held against a question that needs no rays: is this point inside?
+
+use glam::{DVec2, DVec3};
+use lightsquare::assets::{PieceSet, thesis_set};
+use lightsquare::geometry::transform::{rotation_x, rotation_y, rotation_z, scale, translation};
+use lightsquare::geometry::{
+    ControlPoint, Csg, Cuboid, Lathe, Profile, Range, Ray, Solid, Spans, Sphere,
+};
+use proptest::prelude::*;
+use std::sync::LazyLock;
+
+static SET: LazyLock<PieceSet> = LazyLock::new(|| thesis_set(4).unwrap());
+
+fn solids() -> Vec<(&'static str, Csg)> {
+    let sphere = || {
+        Csg::leaf(Sphere {
+            center: DVec3::new(0.3, 1.0, -0.2),
+            radius: 1.2,
+        })
+    };
+    let cuboid = || Csg::leaf(Cuboid::centered(DVec3::new(1.0, 0.5, 2.0)));
+    let turned = || {
+        let turn = rotation_x(20.0) * rotation_y(-50.0) * rotation_z(75.0);
+        cuboid().placed(translation(DVec3::Y) * turn * scale(1.3))
+    };
+    vec![
+        ("sphere", sphere()),
+        ("cuboid", cuboid()),
+        ("turned cuboid", turned()),
+        ("union", sphere().or(cuboid())),
+        ("intersection", sphere().and(turned())),
+        ("difference", turned().minus(sphere())),
+        (
+            "tree",
+            turned()
+                .minus(sphere().and(cuboid()))
+                .or(cuboid().minus(turned())),
+        ),
+        ("pawn", SET.pawn.clone()),
+        ("knight", SET.knight.clone()),
+        ("bishop", SET.bishop.clone()),
+        ("rook", SET.rook.clone()),
+        ("queen", SET.queen.clone()),
+        ("king", SET.king.clone()),
+    ]
+}
+
+fn spans(solid: &Csg, ray: &Ray) -> Spans {
+    let mut spans = Spans::new();
+    solid.spans(ray, &mut spans);
+    spans
+}
+
+fn points() -> impl Strategy<Value = DVec3> {
+    (-3.0..3.0, -1.0..7.0, -3.0..3.0).prop_map(DVec3::from)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(400))]
+
+    #[test]
+    fn a_ray_is_inside_exactly_within_its_spans(from in points(), to in points()) {
+        prop_assume!(from.distance(to) > 1e-3);
+        let ray = Ray { origin: from, direction: (to - from).normalize() };
+        for (name, solid) in solids() {
+            let spans = spans(&solid, &ray);
+            for pair in spans.windows(2) {
+                prop_assert!(pair[0].exit.t <= pair[1].enter.t, "{name}: spans overlap");
+            }
+            let ends: Vec<f64> = spans.iter().flat_map(|span| [span.enter.t, span.exit.t]).collect();
+            for step in -200..200 {
+                let t = f64::from(step) * 0.05;
+                // Where a surface is near, rounding may decide.
+                if ends.iter().any(|end| (end - t).abs() < 1e-6) {
+                    continue;
+                }
+                let in_span = spans.iter().any(|span| span.enter.t < t && t < span.exit.t);
+                prop_assert_eq!(in_span, solid.contains(ray.at(t)), "{} at {}", name, ray.at(t));
+            }
+        }
+    }
+
+    #[test]
+    fn normals_have_length_1_and_point_outwards(from in points(), to in points()) {
+        prop_assume!(from.distance(to) > 1e-3);
+        let ray = Ray { origin: from, direction: (to - from).normalize() };
+        for (name, solid) in solids() {
+            for span in spans(&solid, &ray) {
+                prop_assert!((span.enter.normal.length() - 1.0).abs() < 1e-9, "{name}");
+                prop_assert!(span.enter.normal.dot(ray.direction) <= 1e-9, "{name} enters");
+                prop_assert!(span.exit.normal.dot(ray.direction) >= -1e-9, "{name} leaves");
+            }
+        }
+    }
+
+    #[test]
+    fn the_nearest_crossing_is_the_first_end_of_a_span(from in points(), to in points()) {
+        prop_assume!(from.distance(to) > 1e-3);
+        let ray = Ray { origin: from, direction: (to - from).normalize() };
+        for (name, solid) in solids() {
+            let first = spans(&solid, &ray)
+                .iter()
+                .flat_map(|span| [span.enter.t, span.exit.t])
+                .find(|t| *t >= 0.0);
+            let nearest = solid.nearest(&ray, Range::AHEAD).map(|crossing| crossing.t);
+            prop_assert_eq!(nearest.is_some(), first.is_some(), "{}", name);
+            if let (Some(nearest), Some(first)) = (nearest, first) {
+                prop_assert!((nearest - first).abs() < 1e-9, "{name}: {nearest} and {first}");
+                let before = Range::up_to(first - 1e-6);
+                prop_assert!(!solid.blocks(&ray, before), "{name}");
+                prop_assert!(solid.blocks(&ray, Range::up_to(first + 1e-6)), "{name}");
+            }
+        }
+    }
+}
+
+/// A face may lie on the very edge of the bounds: rounding must not open a way in.
+#[test]
+fn flat_tops_have_no_holes() {
+    let corner = |u, v| ControlPoint {
+        at: DVec2::new(u, v),
+        corner: true,
+    };
+    let corners = [
+        corner(0.0, 0.0),
+        corner(1.0, 0.0),
+        corner(1.0, 3.86),
+        corner(0.0, 3.86),
+    ];
+    let drum = Csg::leaf(Lathe::new(&Profile::new(corners.to_vec()).unwrap(), 0));
+    for drum in [drum.clone(), drum.placed(scale(1.7))] {
+        let height = drum.bounds().max.y;
+        for step in 0..4000 {
+            let angle = f64::from(step) * 0.0111;
+            let top = DVec3::new(0.8 * angle.cos(), height, 0.8 * angle.sin());
+            let origin = DVec3::new(45.0, 15.0 + 0.001 * f64::from(step), -30.0);
+            let ray = Ray {
+                origin,
+                direction: (top - origin).normalize(),
+            };
+            let hit = drum.nearest(&ray, Range::AHEAD).unwrap();
+            assert!(
+                hit.normal.y > 0.99 && ray.at(hit.t).distance(top) < 1e-9,
+                "{top}"
+            );
+        }
+    }
+}
