@@ -181,12 +181,7 @@ struct PictureArgs {
     #[arg(long, value_name = "WxH", value_parser = size, allow_hyphen_values = true, help_heading = "Picture")]
     size: Option<(u32, u32)>,
     /// Antialiasing: none (0), or a grid of rays in each pixel (1)
-    #[arg(
-        long,
-        value_name = "MODE",
-        default_value = "grid",
-        help_heading = "Picture"
-    )]
+    #[arg(long, value_name = "MODE", default_value = "grid", help_heading = "Picture")]
     aa: AntialiasingMode,
     /// Rays along one side of a pixel's grid, from 1 to 32
     #[arg(long, value_name = "N", default_value = "2", value_parser = clap::value_parser!(u32).range(1..=32), help_heading = "Picture")]
@@ -206,10 +201,7 @@ enum AntialiasingMode {
 
 impl Talk {
     pub fn loudness(&self) -> Loudness {
-        Loudness {
-            quiet: self.quiet,
-            verbose: self.verbose,
-        }
+        Loudness { quiet: self.quiet, verbose: self.verbose }
     }
 }
 
@@ -238,37 +230,24 @@ impl RenderArgs {
 impl DiagramArgs {
     pub fn into_job(self) -> anyhow::Result<DiagramJob> {
         let subject = match (self.input, self.fen) {
-            (Some(file), _) => Subject::Game {
-                file,
-                number: usize::try_from(self.select)?,
-                at: self.at,
-            },
+            (Some(file), _) => {
+                Subject::Game { file, number: usize::try_from(self.select)?, at: self.at }
+            }
             (None, Some(Placed(placement, fen))) => Subject::Placement { placement, fen },
             (None, None) => {
                 let [white, black] =
                     [&self.white, &self.black].map(|text| text.as_deref().unwrap_or_default());
                 let placement = Placement::parse(white, black)?;
-                Subject::Placement {
-                    fen: placement.board_fen(),
-                    placement,
-                }
+                Subject::Placement { fen: placement.board_fen(), placement }
             }
         };
-        Ok(DiagramJob {
-            subject,
-            output: self.output,
-            picture: self.picture.into_settings()?,
-        })
+        Ok(DiagramJob { subject, output: self.output, picture: self.picture.into_settings()? })
     }
 }
 
 impl InspectArgs {
     pub fn into_job(self) -> InspectJob {
-        InspectJob {
-            inputs: self.inputs,
-            selection: self.select,
-            positions: self.positions,
-        }
+        InspectJob { inputs: self.inputs, selection: self.select, positions: self.positions }
     }
 }
 
@@ -276,11 +255,7 @@ impl PictureArgs {
     fn into_settings(self) -> anyhow::Result<PictureSettings> {
         let here = PathBuf::from("config.ini");
         let config_file = self.config.or_else(|| here.is_file().then_some(here));
-        let mut config = config_file
-            .as_deref()
-            .map(read_config)
-            .transpose()?
-            .unwrap_or_default();
+        let mut config = config_file.as_deref().map(read_config).transpose()?.unwrap_or_default();
         if let Some((width, height)) = self.size {
             (config.width, config.height) = (width, height);
         }
@@ -306,11 +281,7 @@ fn read_config(path: &Path) -> anyhow::Result<Config> {
 }
 
 fn size(text: &str) -> Result<(u32, u32), String> {
-    let side = |text: &str| {
-        text.parse()
-            .ok()
-            .filter(|side| (1..=MAX_SIDE).contains(side))
-    };
+    let side = |text: &str| text.parse().ok().filter(|side| (1..=MAX_SIDE).contains(side));
     text.split_once(['x', 'X', '×'])
         .and_then(|(width, height)| Some((side(width)?, side(height)?)))
         .ok_or_else(|| {
@@ -342,11 +313,9 @@ fn degrees(text: &str) -> Result<f64, String> {
 struct Placed(Placement, String);
 
 fn fen(text: &str) -> Result<Placed, String> {
-    Placement::from_fen(text)
-        .map(|placement| Placed(placement, text.to_owned()))
-        .map_err(|error| {
-            format!(
-                "{error}, expected a FEN such as 8/8/8/3k4/8/8/4P3/4K3 w - - 0 1, or its board part"
-            )
-        })
+    Placement::from_fen(text).map(|placement| Placed(placement, text.to_owned())).map_err(|error| {
+        format!(
+            "{error}, expected a FEN such as 8/8/8/3k4/8/8/4P3/4K3 w - - 0 1, or its board part"
+        )
+    })
 }

@@ -27,23 +27,11 @@ pub struct Placement {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NotationError {
     #[error("{player}: `{found}` at character {at} is no piece, expected K, D, V, S, J or P")]
-    NoPiece {
-        player: Color,
-        at: usize,
-        found: char,
-    },
+    NoPiece { player: Color, at: usize, found: char },
     #[error("{player}: `{found}` at character {at} is no file, expected A to H")]
-    NoFile {
-        player: Color,
-        at: usize,
-        found: char,
-    },
+    NoFile { player: Color, at: usize, found: char },
     #[error("{player}: `{found}` at character {at} is no rank, expected 1 to 8")]
-    NoRank {
-        player: Color,
-        at: usize,
-        found: char,
-    },
+    NoRank { player: Color, at: usize, found: char },
     #[error(
         "{player}: the string ends at character {at} within a piece, expected a letter, a file and a rank"
     )]
@@ -73,9 +61,7 @@ const LETTERS: [(char, Role); 6] = [
 
 impl Placement {
     /// The empty board.
-    pub const EMPTY: Placement = Placement {
-        squares: [None; 64],
-    };
+    pub const EMPTY: Placement = Placement { squares: [None; 64] };
 
     /// Reads both players' strings; small letters are as good as capitals.
     ///
@@ -95,35 +81,21 @@ impl Placement {
         for (index, triple) in characters.chunks(3).enumerate() {
             let at = 3 * index + 1;
             let upper = |offset: usize| triple.get(offset).map(char::to_ascii_uppercase);
-            let incomplete = NotationError::Incomplete {
-                player,
-                at: characters.len(),
-            };
+            let incomplete = NotationError::Incomplete { player, at: characters.len() };
             let role = upper(0)
                 .and_then(|letter| LETTERS.iter().find(|(known, _)| *known == letter))
                 .map(|(_, role)| *role)
-                .ok_or(NotationError::NoPiece {
-                    player,
-                    at,
-                    found: triple[0],
-                })?;
+                .ok_or(NotationError::NoPiece { player, at, found: triple[0] })?;
             let file = upper(1).ok_or(incomplete.clone())?;
             let file = File::from_char(file.to_ascii_lowercase()).ok_or(NotationError::NoFile {
                 player,
                 at: at + 1,
                 found: triple[1],
             })?;
-            let rank =
-                Rank::from_char(upper(2).ok_or(incomplete)?).ok_or(NotationError::NoRank {
-                    player,
-                    at: at + 2,
-                    found: triple[2],
-                })?;
+            let rank = Rank::from_char(upper(2).ok_or(incomplete)?)
+                .ok_or(NotationError::NoRank { player, at: at + 2, found: triple[2] })?;
             let square = Square::from_coords(file, rank);
-            let piece = Piece {
-                color: player,
-                role,
-            };
+            let piece = Piece { color: player, role };
             if let Some(first) = self.get(square) {
                 return Err(NotationError::Occupied {
                     player,
@@ -181,9 +153,7 @@ impl Placement {
 
     /// All pieces with their squares, a1, b1, … h8.
     pub fn iter(&self) -> impl Iterator<Item = (Square, Piece)> + '_ {
-        Square::ALL
-            .into_iter()
-            .filter_map(|square| self.get(square).map(|piece| (square, piece)))
+        Square::ALL.into_iter().filter_map(|square| self.get(square).map(|piece| (square, piece)))
     }
 }
 
@@ -205,10 +175,8 @@ impl std::fmt::Debug for Placement {
 }
 
 fn written(piece: Piece, square: Square) -> String {
-    let letter = LETTERS
-        .iter()
-        .find(|(_, role)| *role == piece.role)
-        .map_or('?', |(letter, _)| *letter);
+    let letter =
+        LETTERS.iter().find(|(_, role)| *role == piece.role).map_or('?', |(letter, _)| *letter);
     format!("{letter}{}{}", square.file().upper_char(), square.rank())
 }
 
@@ -260,27 +228,11 @@ mod tests {
     #[test]
     fn faults_name_the_character() {
         let cases = [
-            (
-                "XA1",
-                "",
-                "white: `X` at character 1 is no piece, expected K, D, V, S, J or P",
-            ),
+            ("XA1", "", "white: `X` at character 1 is no piece, expected K, D, V, S, J or P"),
             ("KE1QD1", "", "white: `Q` at character 4 is no piece"),
-            (
-                "KI1",
-                "",
-                "white: `I` at character 2 is no file, expected A to H",
-            ),
-            (
-                "",
-                "KE9",
-                "black: `9` at character 3 is no rank, expected 1 to 8",
-            ),
-            (
-                "KE1D",
-                "",
-                "white: the string ends at character 4 within a piece",
-            ),
+            ("KI1", "", "white: `I` at character 2 is no file, expected A to H"),
+            ("", "KE9", "black: `9` at character 3 is no rank, expected 1 to 8"),
+            ("KE1D", "", "white: the string ends at character 4 within a piece"),
             (
                 "KE1DE1",
                 "",
@@ -295,10 +247,7 @@ mod tests {
         ];
         for (white, black, message) in cases {
             let error = Placement::parse(white, black).unwrap_err().to_string();
-            assert!(
-                error.contains(message),
-                "{white:?} {black:?} gave {error:?}"
-            );
+            assert!(error.contains(message), "{white:?} {black:?} gave {error:?}");
         }
     }
 }

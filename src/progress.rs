@@ -47,20 +47,12 @@ impl Terminal {
             ProgressMode::Plain | ProgressMode::None => false,
         };
         let plain = !loudness.quiet && !bar && mode != ProgressMode::None;
-        let target = if bar {
-            ProgressDrawTarget::stderr()
-        } else {
-            ProgressDrawTarget::hidden()
-        };
+        let target = if bar { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
         Terminal {
             bar: ProgressBar::with_draw_target(Some(0), target).with_style(style()),
             loudness,
-            plain: plain.then(|| {
-                Mutex::new(Plain {
-                    next: Instant::now() + EVERY,
-                    game: String::new(),
-                })
-            }),
+            plain: plain
+                .then(|| Mutex::new(Plain { next: Instant::now() + EVERY, game: String::new() })),
             signal,
         }
     }

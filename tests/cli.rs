@@ -21,11 +21,7 @@ fn run_in(folder: &Path, arguments: &[&str], input: &str) -> (i32, String, Strin
         .output()
         .unwrap();
     let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
-    (
-        output.status.code().unwrap(),
-        text(output.stdout),
-        text(output.stderr),
-    )
+    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
 }
 
 /// All files below `folder` with their bytes, by name.
@@ -52,14 +48,8 @@ fn texts(path: &Path) -> Vec<(String, String)> {
     let decoder = png::Decoder::new(std::io::BufReader::new(fs::File::open(path).unwrap()));
     let reader = decoder.read_info().unwrap();
     let info = reader.info();
-    let plain = info
-        .uncompressed_latin1_text
-        .iter()
-        .map(|c| (c.keyword.clone(), c.text.clone()));
-    let wide = info
-        .utf8_text
-        .iter()
-        .map(|c| (c.keyword.clone(), c.get_text().unwrap()));
+    let plain = info.uncompressed_latin1_text.iter().map(|c| (c.keyword.clone(), c.text.clone()));
+    let wide = info.utf8_text.iter().map(|c| (c.keyword.clone(), c.get_text().unwrap()));
     plain.chain(wide).collect()
 }
 
@@ -67,27 +57,15 @@ fn texts(path: &Path) -> Vec<(String, String)> {
 fn a_game_becomes_a_folder_of_numbered_pictures() {
     let out = TempDir::new().unwrap();
     let folder = out.path().to_str().unwrap();
-    let (code, stdout, stderr) = run(&[
-        "render",
-        "games/opera-1858.pgn",
-        "--size",
-        "32x18",
-        "--aa",
-        "none",
-        "-o",
-        folder,
-    ]);
+    let (code, stdout, stderr) =
+        run(&["render", "games/opera-1858.pgn", "--size", "32x18", "--aa", "none", "-o", folder]);
     assert_eq!((code, stdout.as_str()), (0, ""), "{stderr}");
-    let game = out
-        .path()
-        .join("opera-1858/0001-morphy-paul-duke-karl-count-isouard");
+    let game = out.path().join("opera-1858/0001-morphy-paul-duke-karl-count-isouard");
     let names: Vec<String> = tree(&game)
         .iter()
         .map(|(path, _)| path.file_name().unwrap().to_string_lossy().into_owned())
         .collect();
-    let mut expected: Vec<String> = (0..34)
-        .map(|index| format!("frame_{index:05}.png"))
-        .collect();
+    let mut expected: Vec<String> = (0..34).map(|index| format!("frame_{index:05}.png")).collect();
     expected.push("game.json".to_owned());
     assert_eq!(names, expected);
 
@@ -96,29 +74,17 @@ fn a_game_becomes_a_folder_of_numbered_pictures() {
     assert_eq!(manifest["settings"]["config_file"], "config.ini");
     let last = &manifest["frames"][33];
     assert_eq!(last["san"], "Rd8#");
-    assert_eq!(
-        last["fen"],
-        "1n1Rkb1r/p4ppp/4q3/4p1B1/4P3/8/PPP2PPP/2K5 b k - 1 17"
-    );
+    assert_eq!(last["fen"], "1n1Rkb1r/p4ppp/4q3/4p1B1/4P3/8/PPP2PPP/2K5 b k - 1 17");
     assert_eq!(last["white"], "KC1PA2PB2PC2PF2PG2PH2PE4SG5VD8");
     let says = texts(&game.join("frame_00033.png"));
-    for (keyword, text) in [
-        ("SAN", "Rd8#"),
-        ("Ply", "33"),
-        ("Game", "1"),
-        ("FEN", last["fen"].as_str().unwrap()),
-    ] {
-        assert!(
-            says.contains(&(keyword.to_owned(), text.to_owned())),
-            "{keyword}: {says:?}"
-        );
+    for (keyword, text) in
+        [("SAN", "Rd8#"), ("Ply", "33"), ("Game", "1"), ("FEN", last["fen"].as_str().unwrap())]
+    {
+        assert!(says.contains(&(keyword.to_owned(), text.to_owned())), "{keyword}: {says:?}");
     }
     let report = json(&out.path().join("opera-1858/report.jsonl"));
     assert_eq!(report["status"], "rendered");
-    assert_eq!(
-        (&report["plies"], &report["frames"]),
-        (&33.into(), &34.into())
-    );
+    assert_eq!((&report["plies"], &report["frames"]), (&33.into(), &34.into()));
 }
 
 #[test]
@@ -161,41 +127,18 @@ fn the_bytes_are_the_same_for_any_number_of_threads() {
 fn a_game_that_cannot_be_played_whole_is_shown_to_its_last_good_move() {
     let out = TempDir::new().unwrap();
     let games = "[White \"A\"]\n\n1. e4 e5 2. Qxh7 *\n\n[White \"B\"]\n\n1. d4 *\n";
-    let (code, _, stderr) = run_in(
-        out.path(),
-        &["render", "-", "--size", "8x8", "-o", "x"],
-        games,
-    );
+    let (code, _, stderr) = run_in(out.path(), &["render", "-", "--size", "8x8", "-o", "x"], games);
     assert_eq!(code, 3);
-    assert!(
-        stderr.contains("-: game 1, line 3: `Qxh7` is no legal move"),
-        "{stderr}"
-    );
+    assert!(stderr.contains("-: game 1, line 3: `Qxh7` is no legal move"), "{stderr}");
     let report = fs::read_to_string(out.path().join("x/stdin/report.jsonl")).unwrap();
-    let lines: Vec<Value> = report
-        .lines()
-        .map(|line| serde_json::from_str(line).unwrap())
-        .collect();
+    let lines: Vec<Value> =
+        report.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
     assert_eq!(lines.len(), 2);
-    assert_eq!(
-        (&lines[0]["status"], &lines[0]["frames"]),
-        (&"partial".into(), &3.into())
-    );
+    assert_eq!((&lines[0]["status"], &lines[0]["frames"]), (&"partial".into(), &3.into()));
     assert_eq!(lines[0]["problems"][0]["token"], "Qxh7");
-    assert_eq!(
-        (&lines[1]["status"], &lines[1]["frames"]),
-        (&"rendered".into(), &2.into())
-    );
-    assert!(
-        out.path()
-            .join("x/stdin/0001-a-black/frame_00002.png")
-            .is_file()
-    );
-    assert!(
-        out.path()
-            .join("x/stdin/0002-b-black/frame_00001.png")
-            .is_file()
-    );
+    assert_eq!((&lines[1]["status"], &lines[1]["frames"]), (&"rendered".into(), &2.into()));
+    assert!(out.path().join("x/stdin/0001-a-black/frame_00002.png").is_file());
+    assert!(out.path().join("x/stdin/0002-b-black/frame_00001.png").is_file());
 }
 
 #[test]
@@ -205,9 +148,7 @@ fn parts_of_games_are_selected() {
         "[White \"A\"]\n1. e4 e5 *\n[White \"B\"]\n1. d4 d5 2. c4 e6 *\n[White \"C\"]\n1. c4 *\n";
     let (code, ..) = run_in(
         out.path(),
-        &[
-            "render", "-", "--select", "2", "--from", "1b", "--to", "2w", "--size", "8x8",
-        ],
+        &["render", "-", "--select", "2", "--from", "1b", "--to", "2w", "--size", "8x8"],
         games,
     );
     assert_eq!(code, 0);
@@ -219,20 +160,14 @@ fn parts_of_games_are_selected() {
         .map(|frame| frame["ply"].clone())
         .collect();
     assert_eq!(plies, [2, 3]);
-    assert_eq!(
-        fs::read_dir(out.path().join("out/stdin")).unwrap().count(),
-        2
-    );
+    assert_eq!(fs::read_dir(out.path().join("out/stdin")).unwrap().count(), 2);
 }
 
 #[test]
 fn inspect_tells_a_line_a_game_and_a_row_a_position() {
     let (code, stdout, _) = run(&["inspect", "games/saavedra-1895.pgn"]);
     assert_eq!((code, stdout.lines().count()), (0, 1));
-    assert!(
-        stdout.contains("Saavedra") && stdout.contains("13 plies"),
-        "{stdout}"
-    );
+    assert!(stdout.contains("Saavedra") && stdout.contains("13 plies"), "{stdout}");
     let (code, stdout, _) = run(&["inspect", "--positions", "games/saavedra-1895.pgn"]);
     assert_eq!(code, 0);
     let rows: Vec<&str> = stdout.lines().collect();
@@ -294,52 +229,20 @@ fn bad_input_gets_a_sentence_and_leaves_nothing_behind() {
     let cases: &[(&[&str], i32, &str)] = &[
         (&["render", "no.pgn"], 1, "no.pgn: no such file"),
         (&["render", "."], 1, ".: is a folder, expected a PGN file"),
-        (
-            &["render", "empty.pgn"],
-            1,
-            "empty.pgn: is empty, expected games in PGN",
-        ),
-        (
-            &["render", "rubbish.pgn"],
-            1,
-            "rubbish.pgn: is no text (byte 4 is 0)",
-        ),
-        (
-            &["render", "wide.pgn"],
-            1,
-            "wide.pgn: is UTF-16 text, expected UTF-8 or Latin-1",
-        ),
-        (
-            &["render", "prose.pgn"],
-            1,
-            "prose.pgn: no game in it, line 1: `Dear` is no move",
-        ),
+        (&["render", "empty.pgn"], 1, "empty.pgn: is empty, expected games in PGN"),
+        (&["render", "rubbish.pgn"], 1, "rubbish.pgn: is no text (byte 4 is 0)"),
+        (&["render", "wide.pgn"], 1, "wide.pgn: is UTF-16 text, expected UTF-8 or Latin-1"),
+        (&["render", "prose.pgn"], 1, "prose.pgn: no game in it, line 1: `Dear` is no move"),
         (&["render", "game.pgn", "no.pgn"], 1, "no.pgn: no such file"),
         (
             &["render", "game.pgn", "--select", "2"],
             1,
             "game.pgn: none of the selected games is there, it has 1",
         ),
-        (
-            &["render", "game.pgn", "--select", "x"],
-            2,
-            "`x` is no game number or range",
-        ),
-        (
-            &["render", "game.pgn", "--size", "99999999x99999999"],
-            2,
-            "each from 1 to 16384",
-        ),
-        (
-            &["render", "game.pgn", "--size", "-3x4"],
-            2,
-            "expected WIDTHxHEIGHT in pixels",
-        ),
-        (
-            &["render", "game.pgn", "--size", "NaN"],
-            2,
-            "expected WIDTHxHEIGHT in pixels",
-        ),
+        (&["render", "game.pgn", "--select", "x"], 2, "`x` is no game number or range"),
+        (&["render", "game.pgn", "--size", "99999999x99999999"], 2, "each from 1 to 16384"),
+        (&["render", "game.pgn", "--size", "-3x4"], 2, "expected WIDTHxHEIGHT in pixels"),
+        (&["render", "game.pgn", "--size", "NaN"], 2, "expected WIDTHxHEIGHT in pixels"),
         (
             &["render", "game.pgn", "--animate", "--fps", "0"],
             2,
@@ -350,36 +253,20 @@ fn bad_input_gets_a_sentence_and_leaves_nothing_behind() {
             2,
             "'--pause <S>': expected a number from 0",
         ),
-        (
-            &["render", "game.pgn", "--orbit", "NaN"],
-            2,
-            "'--orbit <DEG>': expected a number",
-        ),
+        (&["render", "game.pgn", "--orbit", "NaN"], 2, "'--orbit <DEG>': expected a number"),
         (
             &["render", "game.pgn", "--from", "17x"],
             2,
             "`17x` is no position, expected a move as in 17w",
         ),
-        (
-            &["render", "game.pgn", "-c", "no.ini"],
-            1,
-            "no.ini: cannot be read",
-        ),
-        (
-            &["render", "game.pgn", "-c", "."],
-            1,
-            ".: is a folder, expected a config.ini",
-        ),
+        (&["render", "game.pgn", "-c", "no.ini"], 1, "no.ini: cannot be read"),
+        (&["render", "game.pgn", "-c", "."], 1, ".: is a folder, expected a config.ini"),
         (
             &["render", "game.pgn", "-c", "bad.ini"],
             1,
             "bad.ini: line 2: there is no key `FVO`, did you mean `FOV`?\n  line 3: ZRot is `NaN`",
         ),
-        (
-            &["render", "game.pgn", "-o", "file"],
-            1,
-            "cannot be written",
-        ),
+        (&["render", "game.pgn", "-o", "file"], 1, "cannot be written"),
         (
             &["diagram", "--fen", "8/8/8/9"],
             2,
@@ -404,10 +291,6 @@ fn bad_input_gets_a_sentence_and_leaves_nothing_behind() {
         assert!(stderr.contains(message), "{arguments:?}: {stderr}");
         assert!(!stderr.contains("panicked"), "{arguments:?}: {stderr}");
         assert_eq!(stdout, "", "{arguments:?}");
-        assert_eq!(
-            tree(out.path()).len(),
-            before,
-            "{arguments:?} left something behind"
-        );
+        assert_eq!(tree(out.path()).len(), before, "{arguments:?} left something behind");
     }
 }

@@ -13,10 +13,8 @@ fn the_shipped_file_is_the_default() {
 fn every_key_of_the_shipped_file_is_explained() {
     let lines: Vec<&str> = SHIPPED.lines().collect();
     let mut keys = 0;
-    for (index, line) in lines
-        .iter()
-        .enumerate()
-        .filter(|(_, line)| line.contains('=') && !line.starts_with(';'))
+    for (index, line) in
+        lines.iter().enumerate().filter(|(_, line)| line.contains('=') && !line.starts_with(';'))
     {
         // The comment stands over the key, or over the one before it that it is one thing with.
         let above = lines[..index]

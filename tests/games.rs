@@ -12,11 +12,7 @@ fn here(path: &str) -> PathBuf {
 }
 
 fn read(path: &Path) -> Vec<Game> {
-    Source::open(path)
-        .unwrap()
-        .games()
-        .collect::<Result<_, _>>()
-        .unwrap()
+    Source::open(path).unwrap().games().collect::<Result<_, _>>().unwrap()
 }
 
 /// What a game has to show, in the words of the table.
@@ -40,10 +36,7 @@ fn shows(game: &Game) -> BTreeSet<&'static str> {
             Move::EnPassant { .. } => {
                 found.insert("en-passant");
             }
-            Move::Normal {
-                promotion: Some(role),
-                ..
-            } => {
+            Move::Normal { promotion: Some(role), .. } => {
                 found.insert("promotion");
                 if role != Role::Queen {
                     found.insert("under-promotion");
@@ -58,11 +51,7 @@ fn shows(game: &Game) -> BTreeSet<&'static str> {
     if game.tag("Variant") == Some("Chess960") {
         found.insert("chess960");
     }
-    if game
-        .plies
-        .last()
-        .is_some_and(|ply| ply.after.is_checkmate())
-    {
+    if game.plies.last().is_some_and(|ply| ply.after.is_checkmate()) {
         found.insert("mate");
     }
     found
@@ -91,12 +80,7 @@ fn every_game_is_what_it_is_known_to_be() {
         assert_eq!(game.fen(game.plies.len()), final_fen, "{file}");
         let shown: BTreeSet<&str> = shown.split(',').filter(|word| !word.is_empty()).collect();
         assert_eq!(shows(game), shown, "{file}");
-        let roster: Vec<&str> = game
-            .tags
-            .iter()
-            .take(7)
-            .map(|(name, _)| name.as_str())
-            .collect();
+        let roster: Vec<&str> = game.tags.iter().take(7).map(|(name, _)| name.as_str()).collect();
         assert_eq!(
             roster,
             ["Event", "Site", "Date", "Round", "White", "Black", "Result"],
@@ -135,11 +119,7 @@ fn the_collection_beside_the_repository_is_read_whole() {
     for (file, games, plies) in cases {
         let read = read(&folder.join(file));
         assert_eq!(read.len(), games, "{file}");
-        assert_eq!(
-            read.iter().map(|game| game.plies.len()).sum::<usize>(),
-            plies,
-            "{file}"
-        );
+        assert_eq!(read.iter().map(|game| game.plies.len()).sum::<usize>(), plies, "{file}");
         assert!(read.iter().all(Game::is_whole), "{file}");
     }
 }
@@ -154,11 +134,8 @@ fn the_same_games_with_and_without_a_bom_are_the_same() {
     let [ansi, utf8] = ["Morphy_ANSI.pgn", "Morphy_UTF8.pgn"].map(|file| read(&folder.join(file)));
     for (a, b) in ansi.iter().zip(&utf8) {
         assert_eq!((a.line, &a.tags, &a.result), (b.line, &b.tags, &b.result));
-        let fens = |game: &Game| {
-            (0..=game.plies.len())
-                .map(|ply| game.fen(ply))
-                .collect::<Vec<_>>()
-        };
+        let fens =
+            |game: &Game| (0..=game.plies.len()).map(|ply| game.fen(ply)).collect::<Vec<_>>();
         assert_eq!(fens(a), fens(b));
     }
 }

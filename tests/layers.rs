@@ -46,39 +46,23 @@ fn modules_use_only_what_the_table_allows() {
     let allowed = allowed();
     assert!(allowed.len() >= 10, "the table is not found: {allowed:?}");
     let mut files = Vec::new();
-    sources(
-        &Path::new(env!("CARGO_MANIFEST_DIR")).join("src"),
-        None,
-        &mut files,
-    );
+    sources(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), None, &mut files);
     let mut checked = 0;
     for (module, text) in files {
         let Some(allowed) = allowed.get(&module) else {
-            assert!(
-                ["lib", "main", "cli", "progress"].contains(&module.as_str()),
-                "{module}"
-            );
+            assert!(["lib", "main", "cli", "progress"].contains(&module.as_str()), "{module}");
             continue;
         };
-        for (_, after) in text
-            .match_indices("crate::")
-            .map(|(at, found)| (at, &text[at + found.len()..]))
+        for (_, after) in
+            text.match_indices("crate::").map(|(at, found)| (at, &text[at + found.len()..]))
         {
-            let used: String = after
-                .chars()
-                .take_while(|c| c.is_alphanumeric() || *c == '_')
-                .collect();
-            assert!(
-                used == module || allowed.contains(&used),
-                "{module} uses {used}"
-            );
+            let used: String =
+                after.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
+            assert!(used == module || allowed.contains(&used), "{module} uses {used}");
             checked += 1;
         }
         let knows_chess = ["notation", "game", "timeline"].contains(&module.as_str());
-        assert!(
-            knows_chess || !text.contains("shakmaty"),
-            "{module} knows shakmaty"
-        );
+        assert!(knows_chess || !text.contains("shakmaty"), "{module} knows shakmaty");
     }
     assert!(checked > 20, "{checked}");
 }

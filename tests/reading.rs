@@ -7,19 +7,13 @@ fn read(text: &str) -> Vec<Game> {
 }
 
 fn read_bytes(bytes: &[u8]) -> Vec<Game> {
-    Scanner::new(bytes)
-        .map(|scanned| Game::read(scanned.unwrap()))
-        .collect()
+    Scanner::new(bytes).map(|scanned| Game::read(scanned.unwrap())).collect()
 }
 
 /// A game in one line: its moves, its result, and its problems.
 fn told(game: &Game) -> String {
     let moves: Vec<&str> = game.plies.iter().map(|ply| ply.san.as_str()).collect();
-    let problems: String = game
-        .problems
-        .iter()
-        .map(|problem| format!(" | {problem}"))
-        .collect();
+    let problems: String = game.problems.iter().map(|problem| format!(" | {problem}")).collect();
     format!("{} {}{problems}", moves.join(" "), game.result)
 }
 
@@ -36,25 +30,13 @@ fn games_end_where_the_next_one_begins_and_nowhere_else() {
         ("[Event \"x\"]\n\n1. e4 {c}\n\n1... e5 *", &["e4 e5 *"]),
         ("[Event \"x\"]\n\n[Site \"y\"]\n\n1. e4 *", &["e4 *"]),
         // A tag section after moves, with no result before it.
-        (
-            "[Event \"a\"]\n1. e4\n[Event \"b\"]\n1. d4",
-            &["e4 *", "d4 *"],
-        ),
+        ("[Event \"a\"]\n1. e4\n[Event \"b\"]\n1. d4", &["e4 *", "d4 *"]),
         // Games without moves.
         ("[Event \"a\"]\n\n[Event \"b\"]\n\n1. d4", &[" *", "d4 *"]),
-        (
-            "[Event \"a\"]\n[Result \"1-0\"]\n\n1-0\n\n[Event \"b\"]\n\n*",
-            &[" 1-0", " *"],
-        ),
+        ("[Event \"a\"]\n[Result \"1-0\"]\n\n1-0\n\n[Event \"b\"]\n\n*", &[" 1-0", " *"]),
         // Several on a line, without tags, without numbers.
-        (
-            "e4 e5 * d4 d5 1-0 c4 0-1",
-            &["e4 e5 *", "d4 d5 1-0", "c4 0-1"],
-        ),
-        (
-            "[Result \"1-0\"] e4 *\n[Result \"0-1\"] d4 0-1",
-            &["e4 *", "d4 0-1"],
-        ),
+        ("e4 e5 * d4 d5 1-0 c4 0-1", &["e4 e5 *", "d4 d5 1-0", "c4 0-1"]),
+        ("[Result \"1-0\"] e4 *\n[Result \"0-1\"] d4 0-1", &["e4 *", "d4 0-1"]),
         // What follows the result belongs to the game that it ends.
         ("1. e4 1-0 {resigns} (1. d4)\n", &["e4 1-0"]),
         // Nothing at all.
@@ -75,11 +57,7 @@ fn line_ends_and_encodings_do_not_matter() {
         assert_eq!(told(&games[0]), told(&plain[0]));
         assert_eq!(games[0].tags, plain[0].tags);
     }
-    let latin1: Vec<u8> = text
-        .chars()
-        .skip(1)
-        .map(|c| u8::try_from(c).unwrap())
-        .collect();
+    let latin1: Vec<u8> = text.chars().skip(1).map(|c| u8::try_from(c).unwrap()).collect();
     assert_eq!(read_bytes(&latin1)[0].tags, plain[0].tags);
     assert_eq!(told(&plain[0]), "e4 e5 Nf3 *");
 }
@@ -87,35 +65,17 @@ fn line_ends_and_encodings_do_not_matter() {
 #[test]
 fn what_cannot_be_read_is_told_with_its_line_and_token() {
     let cases: &[(&str, &[&str])] = &[
-        (
-            "1. e4 e5\n2. Qxh7 Nc6 *",
-            &["e4 e5 * | line 2: `Qxh7` is no legal move"],
-        ),
+        ("1. e4 e5\n2. Qxh7 Nc6 *", &["e4 e5 * | line 2: `Qxh7` is no legal move"]),
         ("1. e4 e5 2. Xyz *", &["e4 e5 * | line 1: `Xyz` is no move"]),
-        (
-            "1. Nf3 d5 2. Nc3 d4 3. Nd2 *",
-            &["Nf3 d5 Nc3 d4 * | line 1: `Nd2` is no legal move"],
-        ),
+        ("1. Nf3 d5 2. Nc3 d4 3. Nd2 *", &["Nf3 d5 Nc3 d4 * | line 1: `Nd2` is no legal move"]),
         (
             "1. Nf3 d5 2. d3 e5 3. Nd2 *",
             &["Nf3 d5 d3 e5 * | line 1: `Nd2` can be more than one legal move"],
         ),
-        (
-            "1. e4 -- 2. d4 *",
-            &["e4 * | line 1: `--` is a null move, which no position can show"],
-        ),
-        (
-            "1. e4 Z0 2. d4 *",
-            &["e4 * | line 1: `Z0` is a null move, which no position can show"],
-        ),
-        (
-            "1. e4 {a\nb",
-            &["e4 * | line 1: `{` opens a comment that is never closed"],
-        ),
-        (
-            "1. e4 (1. d4\n2. c4 *",
-            &["e4 * | line 1: `(` opens a variation that is never closed"],
-        ),
+        ("1. e4 -- 2. d4 *", &["e4 * | line 1: `--` is a null move, which no position can show"]),
+        ("1. e4 Z0 2. d4 *", &["e4 * | line 1: `Z0` is a null move, which no position can show"]),
+        ("1. e4 {a\nb", &["e4 * | line 1: `{` opens a comment that is never closed"]),
+        ("1. e4 (1. d4\n2. c4 *", &["e4 * | line 1: `(` opens a variation that is never closed"]),
         ("1. e4 ) 1... e5 *", &["e4 * | line 1: `)` is no move"]),
         // Lost moves before, so the position is not known.
         (
@@ -124,10 +84,7 @@ fn what_cannot_be_read_is_told_with_its_line_and_token() {
         ),
         (
             "1. e4 1-0 2. Nf3 *",
-            &[
-                "e4 1-0",
-                " * | line 1: `Nf3` goes on with a game whose beginning is not known",
-            ],
+            &["e4 1-0", " * | line 1: `Nf3` goes on with a game whose beginning is not known"],
         ),
     ];
     for (text, expected) in cases {
@@ -139,10 +96,7 @@ fn what_cannot_be_read_is_told_with_its_line_and_token() {
 fn an_unclosed_comment_does_not_swallow_the_next_game() {
     assert_told(
         "[Event \"a\"]\n\n1. e4 {never\nclosed *\n\n[Event \"b\"]\n\n1. d4 *\n",
-        &[
-            "e4 * | line 3: `{` opens a comment that is never closed",
-            "d4 *",
-        ],
+        &["e4 * | line 3: `{` opens a comment that is never closed", "d4 *"],
     );
 }
 
@@ -162,6 +116,21 @@ fn an_unreadable_tag_is_reported_and_ends_nothing() {
     assert_eq!(games[0].problems, []);
     assert_eq!(games[1].problems.len(), 1);
     assert_eq!(games[1].line, 2);
+}
+
+#[test]
+fn an_unreadable_start_is_never_taken_for_the_usual_one() {
+    // The tag belongs to the game that follows it, with a result before it or without.
+    for result in ["*", ""] {
+        let games = read(&format!("1. e4 {result}\n[FEN \"x\" y]\n[White \"b\"]\n\n1. d4 *\n"));
+        assert_eq!(told(&games[0]), "e4 *");
+        assert!(!games[1].start_is_known && games[1].plies.is_empty());
+    }
+    let games = read("1. e4 *\n[FEN \"x\" y]\n\n1. d4 *\n");
+    assert!(games[0].is_whole() && !games[1].start_is_known);
+    // Without a tag that can be read, the game before cannot go on past it.
+    let games = read("1. e4\n[FEN \"x\" y]\n\n1... d5 *\n");
+    assert_eq!((games.len(), games[0].plies.len(), games[0].is_whole()), (1, 1, false));
 }
 
 #[test]
@@ -185,10 +154,7 @@ fn no_position_is_shown_where_the_start_is_not_known() {
 fn tags_are_read_as_they_are_written() {
     let cases = [
         ("[Event \"a ] b\"]", ("Event", "a ] b")),
-        (
-            "[Event  \"say \\\"hi\\\" \\\\ \" ]",
-            ("Event", "say \"hi\" \\ "),
-        ),
+        ("[Event  \"say \\\"hi\\\" \\\\ \" ]", ("Event", "say \"hi\" \\ ")),
         ("  [ Event \"x\"]", ("Event", "x")),
         ("[Event\"x\"]", ("Event", "x")),
         ("[Event \"x\"", ("Event", "x")),
@@ -196,11 +162,7 @@ fn tags_are_read_as_they_are_written() {
     ];
     for (text, (name, value)) in cases {
         let games = read(&format!("{text}\n\n1. e4 *"));
-        assert_eq!(
-            games[0].tags,
-            [(name.to_owned(), value.to_owned())],
-            "{text}"
-        );
+        assert_eq!(games[0].tags, [(name.to_owned(), value.to_owned())], "{text}");
         assert_eq!(told(&games[0]), "e4 *", "{text}");
     }
 }
@@ -211,10 +173,7 @@ fn glyphs_numbers_and_symbols_are_no_moves() {
         "1.e4! $1 e5?? 2 . Nf3 !? 2...Nc6 +- 3.Bb5$2 ± a6 = 4. O-O$10 *",
         &["e4 e5 Nf3 Nc6 Bb5 a6 O-O *"],
     );
-    assert_told(
-        "1. e4 e5 2. Nf3 N Nc6 *",
-        &["e4 e5 Nf3 Nc6 * | line 1: `N` is no move"],
-    );
+    assert_told("1. e4 e5 2. Nf3 N Nc6 *", &["e4 e5 Nf3 Nc6 * | line 1: `N` is no move"]);
     assert_told("1. e4<br>e5 *", &["e4 e5 * | line 1: `<br>` is no move"]);
 }
 

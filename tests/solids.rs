@@ -12,12 +12,7 @@ use std::sync::LazyLock;
 static SET: LazyLock<PieceSet> = LazyLock::new(|| thesis_set(4).unwrap());
 
 fn solids() -> Vec<(&'static str, Csg)> {
-    let sphere = || {
-        Csg::leaf(Sphere {
-            center: DVec3::new(0.3, 1.0, -0.2),
-            radius: 1.2,
-        })
-    };
+    let sphere = || Csg::leaf(Sphere { center: DVec3::new(0.3, 1.0, -0.2), radius: 1.2 });
     let cuboid = || Csg::leaf(Cuboid::centered(DVec3::new(1.0, 0.5, 2.0)));
     let turned = || {
         let turn = rotation_x(20.0) * rotation_y(-50.0) * rotation_z(75.0);
@@ -30,12 +25,7 @@ fn solids() -> Vec<(&'static str, Csg)> {
         ("union", sphere().or(cuboid())),
         ("intersection", sphere().and(turned())),
         ("difference", turned().minus(sphere())),
-        (
-            "tree",
-            turned()
-                .minus(sphere().and(cuboid()))
-                .or(cuboid().minus(turned())),
-        ),
+        ("tree", turned().minus(sphere().and(cuboid())).or(cuboid().minus(turned()))),
         ("pawn", SET.pawn.clone()),
         ("knight", SET.knight.clone()),
         ("bishop", SET.bishop.clone()),
@@ -117,16 +107,8 @@ proptest! {
 /// A face may lie on the very edge of the bounds: rounding must not open a way in.
 #[test]
 fn flat_tops_have_no_holes() {
-    let corner = |u, v| ControlPoint {
-        at: DVec2::new(u, v),
-        corner: true,
-    };
-    let corners = [
-        corner(0.0, 0.0),
-        corner(1.0, 0.0),
-        corner(1.0, 3.86),
-        corner(0.0, 3.86),
-    ];
+    let corner = |u, v| ControlPoint { at: DVec2::new(u, v), corner: true };
+    let corners = [corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 3.86), corner(0.0, 3.86)];
     let drum = Csg::leaf(Lathe::new(&Profile::new(corners.to_vec()).unwrap(), 0));
     for drum in [drum.clone(), drum.placed(scale(1.7))] {
         let height = drum.bounds().max.y;
@@ -134,15 +116,9 @@ fn flat_tops_have_no_holes() {
             let angle = f64::from(step) * 0.0111;
             let top = DVec3::new(0.8 * angle.cos(), height, 0.8 * angle.sin());
             let origin = DVec3::new(45.0, 15.0 + 0.001 * f64::from(step), -30.0);
-            let ray = Ray {
-                origin,
-                direction: (top - origin).normalize(),
-            };
+            let ray = Ray { origin, direction: (top - origin).normalize() };
             let hit = drum.nearest(&ray, Range::AHEAD).unwrap();
-            assert!(
-                hit.normal.y > 0.99 && ray.at(hit.t).distance(top) < 1e-9,
-                "{top}"
-            );
+            assert!(hit.normal.y > 0.99 && ray.at(hit.t).distance(top) < 1e-9, "{top}");
         }
     }
 }

@@ -22,21 +22,14 @@ fn film(game: &Game) -> Timeline {
 /// The frame in the middle of the last move.
 fn halfway(game: &Game) -> Frame {
     let moves = game.plies.len();
-    let film = Film {
-        fps: 100.0,
-        ..Film::default()
-    };
+    let film = Film { fps: 100.0, ..Film::default() };
     let timeline = Timeline::new(game, 0, moves, Some(film), 0.0);
     let begins = film.length(moves) - film.last - film.transition;
     timeline.frame(((begins + film.transition / 2.0) * film.fps).round() as usize)
 }
 
 fn moving(frame: &Frame, role: Role) -> &Mover {
-    frame
-        .movers
-        .iter()
-        .find(|mover| mover.piece.role == role)
-        .unwrap()
+    frame.movers.iter().find(|mover| mover.piece.role == role).unwrap()
 }
 
 #[test]
@@ -61,11 +54,7 @@ fn a_films_length_is_first_moves_pauses_and_last() {
     for (text, seconds) in cases {
         let game = game(&format!("[Event \"x\"]\n\n{text}"));
         let timeline = film(&game);
-        assert_eq!(
-            timeline.frames(),
-            (seconds * 25.0_f64).round() as usize,
-            "{text}"
-        );
+        assert_eq!(timeline.frames(), (seconds * 25.0_f64).round() as usize, "{text}");
         let last = timeline.frame(timeline.frames() - 1);
         assert_eq!(last.time, (timeline.frames() - 1) as f64 / 25.0);
         assert_eq!(last.placement, game.placement(game.plies.len()));
@@ -119,30 +108,16 @@ fn sliders_glide_and_knights_hop() {
 fn a_captured_piece_leaves_and_only_that_one() {
     let frame = halfway(&game("1. e4 d5 2. exd5 *"));
     assert_eq!(frame.movers.len(), 2);
-    let taken = frame
-        .movers
-        .iter()
-        .find(|mover| mover.piece.color == Color::Black)
-        .unwrap();
-    assert_eq!(
-        (taken.identity, taken.spot.file, taken.spot.rank),
-        (Square::D7, 3.0, 4.0)
-    );
+    let taken = frame.movers.iter().find(|mover| mover.piece.color == Color::Black).unwrap();
+    assert_eq!((taken.identity, taken.spot.file, taken.spot.rank), (Square::D7, 3.0, 4.0));
     assert!(taken.spot.height > 1.0);
 }
 
 #[test]
 fn en_passant_takes_the_pawn_beside() {
     let frame = halfway(&game("1. e4 a6 2. e5 d5 3. exd6 *"));
-    let taken = frame
-        .movers
-        .iter()
-        .find(|mover| mover.piece.color == Color::Black)
-        .unwrap();
-    assert_eq!(
-        (taken.identity, taken.spot.file, taken.spot.rank),
-        (Square::D7, 3.0, 4.0)
-    );
+    let taken = frame.movers.iter().find(|mover| mover.piece.color == Color::Black).unwrap();
+    assert_eq!((taken.identity, taken.spot.file, taken.spot.rank), (Square::D7, 3.0, 4.0));
     assert_eq!(frame.placement.get(Square::D5), None);
 }
 
@@ -150,20 +125,13 @@ fn en_passant_takes_the_pawn_beside() {
 fn castling_moves_both_and_the_rook_hops() {
     let cases = [
         ("1. Nf3 a6 2. g3 a5 3. Bg2 a4 4. O-O *", 5.0, 6.0),
-        (
-            "1. Nc3 a6 2. b3 a5 3. Bb2 a4 4. e3 h6 5. Qe2 h5 6. O-O-O *",
-            3.0,
-            1.5,
-        ),
+        ("1. Nc3 a6 2. b3 a5 3. Bb2 a4 4. e3 h6 5. Qe2 h5 6. O-O-O *", 3.0, 1.5),
     ];
     for (text, king, rook) in cases {
         let frame = halfway(&game(text));
         assert_eq!(frame.movers.len(), 2);
         let (k, r) = (moving(&frame, Role::King), moving(&frame, Role::Rook));
-        assert!(
-            ((k.spot.file - king).abs() < 1.0) && (r.spot.file - rook).abs() < 0.6,
-            "{text}"
-        );
+        assert!(((k.spot.file - king).abs() < 1.0) && (r.spot.file - rook).abs() < 0.6, "{text}");
         assert!(r.spot.height > 1.67 && k.spot.height < 0.1);
     }
 }
@@ -202,9 +170,7 @@ fn nothing_jumps_between_frames() {
             let before = last.iter().find(|other| other.identity == mover.identity);
             if let Some(before) = before {
                 let (a, b) = (before.spot, mover.spot);
-                let far = (a.file - b.file)
-                    .hypot(a.rank - b.rank)
-                    .hypot(a.height - b.height);
+                let far = (a.file - b.file).hypot(a.rank - b.rank).hypot(a.height - b.height);
                 assert!(far < 1.5, "{far} squares in frame {index}");
             }
         }

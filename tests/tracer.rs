@@ -29,20 +29,14 @@ fn ball(center: DVec3, radius: f64) -> Sphere {
 }
 
 fn floor() -> Cuboid {
-    Cuboid {
-        min: DVec3::new(-50.0, -1.0, -50.0),
-        max: DVec3::new(50.0, 0.0, 50.0),
-    }
+    Cuboid { min: DVec3::new(-50.0, -1.0, -50.0), max: DVec3::new(50.0, 0.0, 50.0) }
 }
 
 /// Seen from above (0, 10, 0), with a light of intensity 1 straight above everything.
 fn from_above(objects: Vec<Object>) -> Scene {
     Scene {
         objects,
-        lights: vec![Light {
-            position: DVec3::new(0.0, 1000.0, 0.0),
-            color: WHITE,
-        }],
+        lights: vec![Light { position: DVec3::new(0.0, 1000.0, 0.0), color: WHITE }],
         camera: Camera::new(&config::Camera {
             position: DVec3::new(0.0, 10.0, 0.0),
             look_at: DVec3::ZERO,
@@ -57,21 +51,12 @@ fn from_above(objects: Vec<Object>) -> Scene {
 /// The pixel in the middle, as shares of 255, and the rays it took.
 fn middle(scene: &Scene) -> ([f64; 3], RayCounts) {
     let (picture, rays) = render(scene, 1, 1, Antialiasing::None);
-    (
-        picture
-            .get_pixel(0, 0)
-            .0
-            .map(|byte| f64::from(byte) / 255.0),
-        rays,
-    )
+    (picture.get_pixel(0, 0).0.map(|byte| f64::from(byte) / 255.0), rays)
 }
 
 fn assert_color(found: [f64; 3], expected: [f64; 3]) {
     for (found, expected) in found.into_iter().zip(expected) {
-        assert!(
-            (found - expected).abs() < 0.5 / 255.0 + 1e-9,
-            "{found} is not {expected}"
-        );
+        assert!((found - expected).abs() < 0.5 / 255.0 + 1e-9, "{found} is not {expected}");
     }
 }
 
@@ -92,19 +77,13 @@ fn a_surface_that_faces_its_light_is_ambient_and_diffuse() {
 #[test]
 fn what_is_in_shadow_is_ambient_alone() {
     // A ball between the floor and the light, but above the camera.
-    let scene = from_above(vec![
-        matte(floor(), WHITE),
-        matte(ball(DVec3::Y * 50.0, 5.0), WHITE),
-    ]);
+    let scene = from_above(vec![matte(floor(), WHITE), matte(ball(DVec3::Y * 50.0, 5.0), WHITE)]);
     assert_color(middle(&scene).0, [0.2, 0.2, 0.2]);
 }
 
 #[test]
 fn a_body_behind_the_light_casts_no_shadow() {
-    let scene = from_above(vec![
-        matte(floor(), WHITE),
-        matte(ball(DVec3::Y * 2000.0, 5.0), WHITE),
-    ]);
+    let scene = from_above(vec![matte(floor(), WHITE), matte(ball(DVec3::Y * 2000.0, 5.0), WHITE)]);
     assert_color(middle(&scene).0, [0.7, 0.7, 0.7]);
 }
 
@@ -122,10 +101,7 @@ fn between_two_mirrors_the_depth_ends_the_ray() {
     let mut below = matte(floor(), WHITE);
     below.material.reflectivity = 0.5;
     let mut above = matte(
-        Cuboid {
-            min: DVec3::new(-50.0, 20.0, -50.0),
-            max: DVec3::new(50.0, 21.0, 50.0),
-        },
+        Cuboid { min: DVec3::new(-50.0, 20.0, -50.0), max: DVec3::new(50.0, 21.0, 50.0) },
         WHITE,
     );
     above.material.reflectivity = 0.5;
@@ -145,10 +121,7 @@ fn the_highlight_is_the_lights_color_where_the_mirror_shows_the_light() {
 #[test]
 fn a_grid_takes_the_mean_of_its_rays() {
     // Half of the pixel sees the floor, half sees the background.
-    let half = Cuboid {
-        min: DVec3::new(0.0, -1.0, -50.0),
-        max: DVec3::new(50.0, 0.0, 50.0),
-    };
+    let half = Cuboid { min: DVec3::new(0.0, -1.0, -50.0), max: DVec3::new(50.0, 0.0, 50.0) };
     let scene = from_above(vec![matte(half, WHITE)]);
     let (picture, rays) = render(&scene, 1, 1, Antialiasing::Grid(4));
     assert_eq!(rays.primary, 16);

@@ -144,10 +144,8 @@ fn tall(millimetres: f64, piece: Csg) -> Csg {
 }
 
 fn turned(points: &[Point], subdivisions: u32) -> Result<Csg, ProfileError> {
-    let control = points.iter().map(|&(u, v, corner)| ControlPoint {
-        at: DVec2::new(u, v),
-        corner,
-    });
+    let control =
+        points.iter().map(|&(u, v, corner)| ControlPoint { at: DVec2::new(u, v), corner });
     let profile = Profile::new(control.collect())?;
     Ok(Csg::leaf(Lathe::new(&profile, subdivisions)))
 }
@@ -171,10 +169,7 @@ fn cross() -> Csg {
 fn notches() -> impl Iterator<Item = Csg> {
     (0..8).map(|index| {
         let spot = rotation_y(45.0 * f64::from(index)).transform_point3(DVec3::X * 0.136);
-        Csg::leaf(Sphere {
-            center: spot + DVec3::Y * 0.908,
-            radius: 0.034,
-        })
+        Csg::leaf(Sphere { center: spot + DVec3::Y * 0.908, radius: 0.034 })
     })
 }
 
@@ -234,10 +229,7 @@ fn beside(x: f64, degrees: f64) -> Csg {
 }
 
 fn eye(side: f64) -> Csg {
-    let socket = Csg::leaf(Sphere {
-        center: DVec3::ZERO,
-        radius: 0.028,
-    });
+    let socket = Csg::leaf(Sphere { center: DVec3::ZERO, radius: 0.028 });
     socket.placed(translation(DVec3::new(0.085, 0.85, side * 0.11)))
 }
 

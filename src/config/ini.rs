@@ -28,33 +28,20 @@ pub fn read(text: &str) -> (Vec<Section<'_>>, Vec<Fault>) {
         if content.is_empty() {
             continue;
         }
-        let name = content
-            .strip_prefix('[')
-            .and_then(|rest| rest.strip_suffix(']'));
+        let name = content.strip_prefix('[').and_then(|rest| rest.strip_suffix(']'));
         let complaint = match (name, content.split_once('='), sections.last_mut()) {
             (Some(name), ..) => {
-                sections.push(Section {
-                    line: number,
-                    name: name.trim(),
-                    entries: Vec::new(),
-                });
+                sections.push(Section { line: number, name: name.trim(), entries: Vec::new() });
                 continue;
             }
             (_, Some((key, value)), Some(section)) => {
-                section.entries.push(Entry {
-                    line: number,
-                    key: key.trim(),
-                    value: value.trim(),
-                });
+                section.entries.push(Entry { line: number, key: key.trim(), value: value.trim() });
                 continue;
             }
             (_, Some(_), None) => "stands before the first [section]",
             (_, None, _) => "is neither a [section] nor a key=value",
         };
-        faults.push(Fault {
-            line: number,
-            message: format!("`{content}` {complaint}"),
-        });
+        faults.push(Fault { line: number, message: format!("`{content}` {complaint}") });
     }
     (sections, faults)
 }

@@ -46,18 +46,10 @@ const GLOBAL_KEYS: [Key<Global>; 6] = [
 ];
 
 const CAMERA_KEYS: [Key<Camera>; 4] = [
-    ("Position", |camera, text| {
-        place(text).map(|value| camera.position = value)
-    }),
-    ("LookAt", |camera, text| {
-        place(text).map(|value| camera.look_at = value)
-    }),
-    ("FOV", |camera, text| {
-        number(text, 1.0, 340.0).map(|value| camera.fov = value)
-    }),
-    ("ZRot", |camera, text| {
-        number(text, -360.0, 360.0).map(|value| camera.z_rot = value)
-    }),
+    ("Position", |camera, text| place(text).map(|value| camera.position = value)),
+    ("LookAt", |camera, text| place(text).map(|value| camera.look_at = value)),
+    ("FOV", |camera, text| number(text, 1.0, 340.0).map(|value| camera.fov = value)),
+    ("ZRot", |camera, text| number(text, -360.0, 360.0).map(|value| camera.z_rot = value)),
 ];
 
 #[derive(Default)]
@@ -67,12 +59,8 @@ struct LightSection {
 }
 
 const LIGHT_KEYS: [Key<LightSection>; 2] = [
-    ("Position", |light, text| {
-        place(text).map(|value| light.position = Some(value))
-    }),
-    ("Color", |light, text| {
-        triple(text, 0.0, 100.0).map(|value| light.color = Some(value))
-    }),
+    ("Position", |light, text| place(text).map(|value| light.position = Some(value))),
+    ("Color", |light, text| triple(text, 0.0, 100.0).map(|value| light.color = Some(value))),
 ];
 
 /// Turns sections into settings; whatever cannot be used is added to `faults`.
@@ -91,9 +79,7 @@ pub fn interpret(document: &[Section], faults: &mut Vec<Fault>) -> Config {
             });
             continue;
         }
-        let light = name
-            .strip_prefix("light")
-            .and_then(|number| number.parse().ok());
+        let light = name.strip_prefix("light").and_then(|number| number.parse().ok());
         match (name.as_str(), light) {
             ("globalsettings", _) => read_section(section, &GLOBAL_KEYS, &mut global, faults),
             ("camera", _) => {
@@ -130,10 +116,9 @@ fn read_section<T>(section: &Section, keys: &[Key<T>], target: &mut T, faults: &
         let known = keys.iter().find(|(name, _)| name.eq_ignore_ascii_case(key));
         let message = match known {
             None => Some(unknown("key", key, keys.iter().map(|(name, _)| *name))),
-            Some((name, _)) if seen.contains(name) => Some(format!(
-                "{name} is given here a second time in [{}]",
-                section.name
-            )),
+            Some((name, _)) if seen.contains(name) => {
+                Some(format!("{name} is given here a second time in [{}]", section.name))
+            }
             Some((name, apply)) => {
                 seen.push(name);
                 apply(target, value)
@@ -168,9 +153,7 @@ fn light_sections(
     for (line, number, section) in sections {
         let mut fault = |message| faults.push(Fault { line, message });
         let Some(light) = lights.get_mut(number as usize) else {
-            fault(format!(
-                "there is a [Light{number}], but LightCount is {count}"
-            ));
+            fault(format!("there is a [Light{number}], but LightCount is {count}"));
             continue;
         };
         described[number as usize] = true;
@@ -180,11 +163,7 @@ fn light_sections(
             (_, None) => fault(format!("[Light{number}] has no usable Color")),
         }
     }
-    for (number, _) in described
-        .iter()
-        .enumerate()
-        .filter(|(_, described)| !**described)
-    {
+    for (number, _) in described.iter().enumerate().filter(|(_, described)| !**described) {
         faults.push(Fault {
             line: 0,
             message: format!("LightCount is {count}, but there is no section [Light{number}]"),
@@ -194,16 +173,9 @@ fn light_sections(
 }
 
 fn integer(text: &str, min: u32, max: u32) -> Result<u32, Expected> {
-    text.parse()
-        .ok()
-        .filter(|value| (min..=max).contains(value))
-        .ok_or_else(|| {
-            if min == max {
-                format!("{min}")
-            } else {
-                format!("a whole number from {min} to {max}")
-            }
-        })
+    text.parse().ok().filter(|value| (min..=max).contains(value)).ok_or_else(|| {
+        if min == max { format!("{min}") } else { format!("a whole number from {min} to {max}") }
+    })
 }
 
 fn number(text: &str, min: f64, max: f64) -> Result<f64, Expected> {
@@ -220,9 +192,7 @@ fn triple(text: &str, min: f64, max: f64) -> Result<DVec3, Expected> {
         .map(|part| number(part.trim(), min, max))
         .collect::<Result<_, _>>()
         .map_err(|_| expected())?;
-    <[f64; 3]>::try_from(numbers)
-        .map(DVec3::from)
-        .map_err(|_| expected())
+    <[f64; 3]>::try_from(numbers).map(DVec3::from).map_err(|_| expected())
 }
 
 /// A point of the world.
@@ -241,58 +211,25 @@ mod tests {
                 "[GlobalSettings]\nImageWidht=3",
                 "line 2: there is no key `ImageWidht`, did you mean `ImageWidth`?",
             ),
-            (
-                "[Global]\n",
-                "line 1: there is no section `Global`, did you mean `GlobalSettings`?",
-            ),
+            ("[Global]\n", "line 1: there is no section `Global`, did you mean `GlobalSettings`?"),
             (
                 "[GlobalSettings]\nImageWidth=-3",
                 "line 2: ImageWidth is `-3`, expected a whole number from 1 to 16384",
             ),
-            (
-                "[GlobalSettings]\nImageWidth=NaN",
-                "line 2: ImageWidth is `NaN`, expected",
-            ),
-            (
-                "[GlobalSettings]\nSnellIndex=nan",
-                "line 2: SnellIndex is `nan`, expected a number",
-            ),
+            ("[GlobalSettings]\nImageWidth=NaN", "line 2: ImageWidth is `NaN`, expected"),
+            ("[GlobalSettings]\nSnellIndex=nan", "line 2: SnellIndex is `nan`, expected a number"),
             (
                 "[GlobalSettings]\nBackgroundColor=0,0",
                 "line 2: BackgroundColor is `0,0`, expected three numbers from 0 to 1",
             ),
-            (
-                "[GlobalSettings]\nModelCount=1",
-                "line 2: ModelCount is `1`, expected 0",
-            ),
-            (
-                "[Camera]\nFOV=0",
-                "line 2: FOV is `0`, expected a number from 1 to 340",
-            ),
-            (
-                "[Camera]\nFOV=90\nfov=80",
-                "line 3: FOV is given here a second time in [Camera]",
-            ),
-            (
-                "[Camera]\nPosition=1,2,inf",
-                "line 2: Position is `1,2,inf`, expected three numbers",
-            ),
-            (
-                "[Camera]\nPosition=14,0,14",
-                "line 1: the camera's LookAt is its own Position",
-            ),
-            (
-                "[Camera]\n[Camera]\n",
-                "line 2: the section [Camera] stands here a second time",
-            ),
-            (
-                "ZRot=10",
-                "line 1: `ZRot=10` stands before the first [section]",
-            ),
-            (
-                "[Camera]\n\nZRot",
-                "line 3: `ZRot` is neither a [section] nor a key=value",
-            ),
+            ("[GlobalSettings]\nModelCount=1", "line 2: ModelCount is `1`, expected 0"),
+            ("[Camera]\nFOV=0", "line 2: FOV is `0`, expected a number from 1 to 340"),
+            ("[Camera]\nFOV=90\nfov=80", "line 3: FOV is given here a second time in [Camera]"),
+            ("[Camera]\nPosition=1,2,inf", "line 2: Position is `1,2,inf`, expected three numbers"),
+            ("[Camera]\nPosition=14,0,14", "line 1: the camera's LookAt is its own Position"),
+            ("[Camera]\n[Camera]\n", "line 2: the section [Camera] stands here a second time"),
+            ("ZRot=10", "line 1: `ZRot=10` stands before the first [section]"),
+            ("[Camera]\n\nZRot", "line 3: `ZRot` is neither a [section] nor a key=value"),
             (
                 "[GlobalSettings]\nLightCount=2\n[Light0]\nPosition=0,1,0\nColor=1,1,1",
                 "LightCount is 2, but there is no section [Light1]",
@@ -315,12 +252,8 @@ mod tests {
     #[test]
     fn all_faults_come_together_in_the_order_of_their_lines() {
         let text = "[Camera]\nFOV=x\n[GlobalSettings]\nImageWidth=0\nrubbish\n";
-        let lines: Vec<usize> = Config::parse(text)
-            .unwrap_err()
-            .faults
-            .iter()
-            .map(|fault| fault.line)
-            .collect();
+        let lines: Vec<usize> =
+            Config::parse(text).unwrap_err().faults.iter().map(|fault| fault.line).collect();
         assert_eq!(lines, [2, 4, 5]);
     }
 
@@ -339,9 +272,6 @@ mod tests {
 
     #[test]
     fn an_empty_file_is_the_default() {
-        assert_eq!(
-            Config::parse("\u{feff}; nothing\n").unwrap(),
-            Config::default()
-        );
+        assert_eq!(Config::parse("\u{feff}; nothing\n").unwrap(), Config::default());
     }
 }

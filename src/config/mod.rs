@@ -56,14 +56,8 @@ impl Default for Config {
             background: DVec3::ZERO,
             snell_index: 1.0,
             lights: vec![
-                Light {
-                    position: DVec3::new(0.0, 150.0, -50.0),
-                    color: DVec3::splat(0.8),
-                },
-                Light {
-                    position: DVec3::new(90.0, 90.0, 20.0),
-                    color: DVec3::splat(0.5),
-                },
+                Light { position: DVec3::new(0.0, 150.0, -50.0), color: DVec3::splat(0.8) },
+                Light { position: DVec3::new(90.0, 90.0, 20.0), color: DVec3::splat(0.5) },
             ],
             camera: Camera {
                 position: DVec3::new(45.0, 15.0, -30.0),

@@ -5,12 +5,14 @@
 //! it drops), `replay` plays them. What cannot be read becomes a [`Problem`] with its line and
 //! token; a game is shown up to its last good move, and the next game is read.
 
+mod bytes;
 mod movetext;
 mod replay;
 mod scan;
 mod select;
 mod source;
 mod start;
+mod word;
 
 pub use scan::{ScannedGame, Scanner};
 pub use select::{Moment, ParseMomentError, ParseSelectionError, Selection};
@@ -63,6 +65,19 @@ pub struct Problem {
     pub loses_moves: bool,
 }
 
+impl Problem {
+    /// A problem with a token that is made fit for print: no control characters, not too long.
+    fn new(line: usize, token: &str, what: &str, loses_moves: bool) -> Problem {
+        const LONGEST: usize = 80;
+        let mut token = word::printable(token);
+        if let Some((end, _)) = token.char_indices().nth(LONGEST) {
+            token.truncate(end);
+            token.push('…');
+        }
+        Problem { line, token, what: what.to_owned(), loses_moves }
+    }
+}
+
 impl Game {
     /// Reads and replays a game that the scanner has cut out.
     pub fn read(scanned: ScannedGame) -> Game {
@@ -105,13 +120,10 @@ impl Game {
 
     /// The move that led to the position after `ply` half-moves; none leads to the start.
     pub fn san(&self, ply: usize) -> Option<&str> {
-        ply.checked_sub(1)
-            .map(|index| self.plies[index].san.as_str())
+        ply.checked_sub(1).map(|index| self.plies[index].san.as_str())
     }
 }
 
 fn tag<'a>(tags: &'a [(String, String)], name: &str) -> Option<&'a str> {
-    tags.iter()
-        .find(|(known, _)| known.eq_ignore_ascii_case(name))
-        .map(|(_, value)| value.as_str())
+    tags.iter().find(|(known, _)| known.eq_ignore_ascii_case(name)).map(|(_, value)| value.as_str())
 }

@@ -74,17 +74,11 @@ impl Visitor for MainLine {
 /// Reads a token in the ways that files really write moves.
 fn tolerant(token: &str) -> Written {
     if let Ok(san) = SanPlus::from_ascii(token.as_bytes()) {
-        return Written {
-            san: Some(san.san),
-            uci: uci(token),
-            passes: san.san == San::Null,
-        };
+        return Written { san: Some(san.san), uci: uci(token), passes: san.san == San::Null };
     }
     let plain = plain(token);
     Written {
-        san: SanPlus::from_ascii(plain.as_bytes())
-            .ok()
-            .map(|san| san.san),
+        san: SanPlus::from_ascii(plain.as_bytes()).ok().map(|san| san.san),
         uci: uci(&plain),
         passes: token == "Z0",
     }
@@ -92,9 +86,7 @@ fn tolerant(token: &str) -> Written {
 
 fn uci(text: &str) -> Option<UciMove> {
     let lower = text.trim_end_matches(['+', '#']).to_ascii_lowercase();
-    UciMove::from_ascii(lower.as_bytes())
-        .ok()
-        .filter(|m| matches!(m, UciMove::Normal { .. }))
+    UciMove::from_ascii(lower.as_bytes()).ok().filter(|m| matches!(m, UciMove::Normal { .. }))
 }
 
 /// The token as the standard writes it: castling with capital Os, no hyphen between squares, `=`
@@ -109,22 +101,14 @@ fn plain(token: &str) -> String {
     } else {
         ""
     };
-    let body = body
-        .strip_suffix("e.p")
-        .or_else(|| body.strip_suffix("ep"))
-        .unwrap_or(body);
-    let castling: String = body
-        .chars()
-        .map(|c| if matches!(c, 'o' | '0') { 'O' } else { c })
-        .collect();
+    let body = body.strip_suffix("e.p").or_else(|| body.strip_suffix("ep")).unwrap_or(body);
+    let castling: String =
+        body.chars().map(|c| if matches!(c, 'o' | '0') { 'O' } else { c }).collect();
     if matches!(castling.as_str(), "O-O" | "O-O-O") {
         return castling + check;
     }
-    let mut squares: String = body
-        .chars()
-        .filter(|c| *c != '-')
-        .map(|c| if c == ':' { 'x' } else { c })
-        .collect();
+    let mut squares: String =
+        body.chars().filter(|c| *c != '-').map(|c| if c == ':' { 'x' } else { c }).collect();
     let promoted = squares.len().checked_sub(1).filter(|&last| {
         squares.is_char_boundary(last)
             && squares[last..].starts_with(['Q', 'R', 'B', 'N'])
@@ -170,22 +154,13 @@ mod tests {
 
     #[test]
     fn uci_moves_keep_their_squares() {
-        assert_eq!(
-            tolerant("g1f3").uci.map(|m| m.to_string()).as_deref(),
-            Some("g1f3")
-        );
-        assert_eq!(
-            tolerant("d7d8r").uci.map(|m| m.to_string()).as_deref(),
-            Some("d7d8r")
-        );
+        assert_eq!(tolerant("g1f3").uci.map(|m| m.to_string()).as_deref(), Some("g1f3"));
+        assert_eq!(tolerant("d7d8r").uci.map(|m| m.to_string()).as_deref(), Some("d7d8r"));
     }
 
     #[test]
     fn a_move_that_only_pgn_reader_sees_ends_the_game() {
-        let tokens = ["e4", "e5"].map(|text| Token {
-            line: 1,
-            text: text.to_owned(),
-        });
+        let tokens = ["e4", "e5"].map(|text| Token { line: 1, text: text.to_owned() });
         assert_eq!(read(&tokens, b"e4 e5").len(), 2);
         assert_eq!(read(&tokens, b"e4 d5 e5").len(), 1);
     }

@@ -21,12 +21,7 @@ pub fn replay(scanned: ScannedGame) -> Game {
         }
         (Ok(setup), _) => Some(setup),
         (Err(refusal), _) => {
-            problems.push(Problem::new(
-                scanned.line,
-                &refusal.token,
-                &refusal.what,
-                true,
-            ));
+            problems.push(Problem::new(scanned.line, &refusal.token, &refusal.what, true));
             None
         }
     };
@@ -77,11 +72,7 @@ fn play(
             Err(what) => return stop(what),
         };
         let san = SanPlus::from_move_and_play_unchecked(&mut position, played);
-        plies.push(Ply {
-            san: san.to_string(),
-            played,
-            after: position.clone(),
-        });
+        plies.push(Ply { san: san.to_string(), played, after: position.clone() });
     }
     None
 }
@@ -91,10 +82,7 @@ fn legal(position: &Chess, written: &Written) -> Result<Move, &'static str> {
     if written.passes {
         return Err("is a null move, which no position can show");
     }
-    let by_squares = written
-        .uci
-        .as_ref()
-        .and_then(|uci| uci.to_move(position).ok());
+    let by_squares = written.uci.as_ref().and_then(|uci| uci.to_move(position).ok());
     match (&written.san, by_squares) {
         (Some(san), by_squares) => match (san.to_move(position), by_squares) {
             (Ok(played), _) | (Err(_), Some(played)) => Ok(played),

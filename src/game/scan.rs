@@ -7,6 +7,8 @@
 use std::io::{self, BufRead};
 
 use super::Problem;
+use super::bytes::Bytes;
+use super::word::{Word, classify, decoded, parse_tag, split_number};
 
 /// One game as it stands in the text.
 #[derive(Debug, Default)]
@@ -47,29 +49,10 @@ pub struct Scanner<R> {
     stray_tags: Vec<(usize, String)>,
 }
 
-/// What a word of the main line is.
-enum Word {
-    Number(u32),
-    Result(String),
-    Move(String),
-    /// A glyph or symbol; it says nothing about the moves.
-    Annotation,
-    /// A word that can be no move, but should not be there.
-    Odd,
-}
-
 impl<R: BufRead> Scanner<R> {
     /// Scans `reader` from its beginning, which is line 1.
     pub fn new(reader: R) -> Scanner<R> {
-        Scanner {
-            bytes: Bytes {
-                reader,
-                line: 1,
-                at_line_start: true,
-            },
-            begun: None,
-            stray_tags: Vec::new(),
-        }
+        Scanner { bytes: Bytes::new(reader), begun: None, stray_tags: Vec::new() }
     }
 
     fn next_game(&mut self) -> io::Result<Option<ScannedGame>> {
@@ -125,9 +108,7 @@ impl<R: BufRead> Scanner<R> {
     fn bracket(&mut self, game: &mut Option<ScannedGame>) -> io::Result<bool> {
         let line = self.bytes.line;
         let in_place = self.bytes.at_line_start
-            || game
-                .as_ref()
-                .is_none_or(|game| !game.has_moves() || game.result.is_some());
+            || game.as_ref().is_none_or(|game| !game.has_moves() || game.result.is_some());
         let raw = self.bytes.bracket()?;
         if !in_place {
             if let Some(game) = game {
@@ -136,11 +117,11 @@ impl<R: BufRead> Scanner<R> {
             return Ok(false);
         }
         let Some((name, value)) = parse_tag(&raw) else {
+            // After moves it is not yet clear whether the next game begins here.
             self.stray_tags.push((line, raw));
-            if let Some(game) = game.as_mut().filter(|game| !game.has_ended()) {
+            let game = game.get_or_insert_with(|| ScannedGame::at(line));
+            if !game.has_moves() && !game.has_ended() {
                 game.take_unreadable(&mut self.stray_tags);
-            } else if game.is_none() {
-                *game = Some(ScannedGame::at(line));
             }
             return Ok(false);
         };
@@ -182,11 +163,12 @@ impl<R: BufRead> Scanner<R> {
                 Some(b'\n') => {
                     let last = text[line_start..].trim_ascii();
                     // A tag section within a comment: the brace was forgotten.
-                    if blank_before && last.starts_with(b"[Event ") {
-                        if let Some((name, value)) = parse_tag(&decoded(last)) {
-                            self.begun = Some(self.first_tag(line, name, value));
-                            break;
-                        }
+                    if blank_before
+                        && last.starts_with(b"[Event ")
+                        && let Some((name, value)) = parse_tag(&decoded(last))
+                    {
+                        self.begun = Some(self.first_tag(line, name, value));
+                        break;
                     }
                     blank_before = last.is_empty();
                     text.push(b' ');
@@ -206,8 +188,7 @@ impl<R: BufRead> Scanner<R> {
         if let Some(game) = game {
             game.gap = true;
             game.movetext.push(b'{');
-            game.movetext
-                .extend(text.iter().filter(|byte| !b"{}\r\n".contains(byte)));
+            game.movetext.extend(text.iter().filter(|byte| !b"{}\r\n".contains(byte)));
             game.movetext.extend(b"} ");
         }
     }
@@ -223,10 +204,7 @@ impl<R: BufRead> Scanner<R> {
             game.open_variations.push(line);
         } else if game.open_variations.pop().is_none() {
             // What came before may have been a variation: nothing after it is certain.
-            game.tokens.push(Token {
-                line,
-                text: ")".to_owned(),
-            });
+            game.tokens.push(Token { line, text: ")".to_owned() });
             return Ok(());
         }
         game.movetext.extend([byte, b' ']);
@@ -261,29 +239,19 @@ impl<R: BufRead> Scanner<R> {
             self.bytes.at_line_start = at_line_start;
             return Ok(false);
         }
-        if let Some(game) = game
-            .as_mut()
-            .filter(|game| !game.open_variations.is_empty())
-        {
+        if let Some(game) = game.as_mut().filter(|game| !game.open_variations.is_empty()) {
             game.keep(text);
             return Ok(false);
         }
         let (number, rest) = split_number(text);
-        let mut words = number
-            .map(Word::Number)
-            .into_iter()
-            .chain(classify(rest))
-            .peekable();
-        let goes_on = words
-            .peek()
-            .is_some_and(|word| matches!(word, Word::Number(_) | Word::Move(_)));
+        let mut words = number.map(Word::Number).into_iter().chain(classify(rest)).peekable();
+        let goes_on =
+            words.peek().is_some_and(|word| matches!(word, Word::Number(_) | Word::Move(_)));
         if goes_on && game.as_ref().is_some_and(ScannedGame::has_ended) {
             let mut next = ScannedGame::at(line);
+            next.take_unreadable(&mut self.stray_tags);
             next.take(line, text, words);
             self.begun = Some(next);
-            if let Some(game) = game {
-                game.take_unreadable(&mut self.stray_tags);
-            }
             return Ok(true);
         }
         // A result alone, outside any game, is none.
@@ -307,10 +275,7 @@ impl<R: BufRead> Iterator for Scanner<R> {
 
 impl ScannedGame {
     fn at(line: usize) -> ScannedGame {
-        ScannedGame {
-            line,
-            ..ScannedGame::default()
-        }
+        ScannedGame { line, ..ScannedGame::default() }
     }
 
     fn has_moves(&self) -> bool {
@@ -322,8 +287,7 @@ impl ScannedGame {
     }
 
     fn report(&mut self, line: usize, token: &str, what: &str, loses_moves: bool) {
-        self.problems
-            .push(Problem::new(line, token, what, loses_moves));
+        self.problems.push(Problem::new(line, token, what, loses_moves));
     }
 
     fn tag(&mut self, line: usize, name: String, value: String) {
@@ -343,25 +307,20 @@ impl ScannedGame {
     /// Takes unreadable tags over as problems.
     fn take_unreadable(&mut self, tags: &mut Vec<(usize, String)>) {
         for (line, raw) in tags.drain(..) {
-            let name = raw
-                .trim_start_matches(['[', ' ', '\t'])
-                .to_ascii_lowercase();
-            let says_start = ["fen", "setup", "variant"]
-                .iter()
-                .any(|tag| name.starts_with(tag));
-            self.start_is_lost |= says_start && !self.has_moves();
-            self.report(
-                line,
-                &raw,
-                "is no tag, expected [Name \"Value\"]",
-                says_start,
-            );
+            let name = raw.trim_start_matches(['[', ' ', '\t']).to_ascii_lowercase();
+            let says_start = ["fen", "setup", "variant"].iter().any(|tag| name.starts_with(tag));
+            if says_start && self.has_moves() {
+                // What follows may be moves of a game with a start of its own: stop there.
+                self.tokens.push(Token { line, text: raw });
+                continue;
+            }
+            self.start_is_lost |= says_start;
+            self.report(line, &raw, "is no tag, expected [Name \"Value\"]", says_start);
         }
     }
 
     fn keep(&mut self, text: &str) {
-        self.movetext
-            .extend(text.bytes().filter(|byte| *byte != b'['));
+        self.movetext.extend(text.bytes().filter(|byte| *byte != b'['));
         self.movetext.push(b' ');
     }
 
@@ -374,12 +333,7 @@ impl ScannedGame {
                 }
                 Word::Result(result) => {
                     if self.result.as_ref().is_some_and(|known| *known != result) {
-                        self.report(
-                            line,
-                            text,
-                            "is a second result; the first one counts",
-                            false,
-                        );
+                        self.report(line, text, "is a second result; the first one counts", false);
                     }
                     self.result.get_or_insert(result);
                 }
@@ -395,185 +349,5 @@ impl ScannedGame {
             self.report(line, "(", "opens a variation that is never closed", true);
         }
         self
-    }
-}
-
-/// The move number at the front of a word (`12.`, `12...`, or the whole word), and what follows.
-fn split_number(word: &str) -> (Option<u32>, &str) {
-    let rest = word.trim_start_matches(|c: char| c.is_ascii_digit());
-    let digits = &word[..word.len() - rest.len()];
-    let after = rest.trim_start_matches(['.', '…']);
-    if rest.is_empty() || after.len() < rest.len() {
-        (digits.parse().ok(), after)
-    } else {
-        (None, word)
-    }
-}
-
-/// Says what a word (without its move number) is; nothing for an empty one.
-fn classify(word: &str) -> Option<Word> {
-    if word.is_empty() {
-        return None;
-    }
-    let ascii_dashes = word.replace(['–', '—', '−', '‐', '‑'], "-");
-    let result = match ascii_dashes.as_str() {
-        "1-0" | "0-1" | "1/2-1/2" | "*" => Some(ascii_dashes.as_str()),
-        "1/2" | "½-½" | "½" => Some("1/2-1/2"),
-        _ => None,
-    };
-    if let Some(result) = result {
-        return Some(Word::Result(result.to_owned()));
-    }
-    let bare = word.trim_end_matches(['!', '?', '.']);
-    let null = bare == "--";
-    let letters = bare.chars().filter(|c| c.is_alphanumeric()).count();
-    Some(match letters {
-        0 if !null => Word::Annotation,
-        _ if word.starts_with('$') => Word::Annotation,
-        // No move is written with a single letter or digit.
-        1 => Word::Odd,
-        2 if bare.eq_ignore_ascii_case("ep") || bare.eq_ignore_ascii_case("e.p") => {
-            Word::Annotation
-        }
-        _ => Word::Move(bare.to_owned()),
-    })
-}
-
-/// Name and value of a tag pair; the closing bracket may be missing.
-fn parse_tag(raw: &str) -> Option<(String, String)> {
-    let inner = raw.strip_prefix('[')?.trim();
-    let inner = inner.strip_suffix(']').unwrap_or(inner).trim_end();
-    let (name, quoted) = inner.split_at(inner.find([' ', '\t', '"'])?);
-    let named = name.starts_with(|c: char| c.is_alphanumeric() || c == '_');
-    let quoted = quoted.trim_start().strip_prefix('"')?.strip_suffix('"')?;
-    let mut value = String::with_capacity(quoted.len());
-    let mut characters = quoted.chars();
-    while let Some(character) = characters.next() {
-        match character {
-            '\\' => value.push(characters.next()?),
-            '"' => return None,
-            other => value.push(other),
-        }
-    }
-    named.then(|| (name.to_owned(), printable(&value)))
-}
-
-/// UTF-8 where the bytes are that, else Latin-1.
-fn decoded(bytes: &[u8]) -> String {
-    match std::str::from_utf8(bytes) {
-        Ok(text) => text.to_owned(),
-        Err(_) => bytes.iter().copied().map(char::from).collect(),
-    }
-}
-
-/// `text` with nothing in it that moves a cursor or rings a bell.
-fn printable(text: &str) -> String {
-    text.replace(char::is_control, " ")
-}
-
-impl Problem {
-    /// A problem with a token that is made fit for print: no control characters, not too long.
-    pub(super) fn new(line: usize, token: &str, what: &str, loses_moves: bool) -> Problem {
-        const LONGEST: usize = 80;
-        let mut token = printable(token);
-        if let Some((end, _)) = token.char_indices().nth(LONGEST) {
-            token.truncate(end);
-            token.push('…');
-        }
-        Problem {
-            line,
-            token,
-            what: what.to_owned(),
-            loses_moves,
-        }
-    }
-}
-
-/// The bytes of a stream, with line numbers. CR, LF and CRLF all end a line.
-struct Bytes<R> {
-    reader: R,
-    /// The line of the next byte, from 1.
-    line: usize,
-    /// Whether only blanks stand before the next byte in its line.
-    at_line_start: bool,
-}
-
-impl<R: BufRead> Bytes<R> {
-    fn peek(&mut self) -> io::Result<Option<u8>> {
-        loop {
-            match self.reader.fill_buf() {
-                Ok(buffer) => return Ok(buffer.first().copied()),
-                Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
-                Err(error) => return Err(error),
-            }
-        }
-    }
-
-    /// The next byte, with any line end as `\n`.
-    fn bump(&mut self) -> io::Result<Option<u8>> {
-        let Some(mut byte) = self.peek()? else {
-            return Ok(None);
-        };
-        self.reader.consume(1);
-        if byte == b'\r' {
-            if self.peek()? == Some(b'\n') {
-                self.reader.consume(1);
-            }
-            byte = b'\n';
-        }
-        if byte == b'\n' {
-            self.line += 1;
-            self.at_line_start = true;
-        } else if !byte.is_ascii_whitespace() {
-            self.at_line_start = false;
-        }
-        Ok(Some(byte))
-    }
-
-    /// The bytes up to the end of the line, which stays.
-    fn rest_of_line(&mut self) -> io::Result<Vec<u8>> {
-        self.until(|byte| byte == b'\n' || byte == b'\r')
-    }
-
-    /// A word: up to a blank or one of `{}()[]<;`, or up to a `$` within.
-    fn word(&mut self) -> io::Result<Vec<u8>> {
-        let mut word =
-            self.until(|byte| byte.is_ascii_whitespace() || b"{}()[]<;$".contains(&byte))?;
-        if word.is_empty() {
-            word.extend(self.bump()?);
-            if word == b"$" {
-                word.extend(self.until(|byte| !byte.is_ascii_digit())?);
-            }
-        }
-        Ok(word)
-    }
-
-    /// From a `[` to the `]` that closes it (one in quotes does not), or to the end of the line.
-    fn bracket(&mut self) -> io::Result<String> {
-        let mut raw = Vec::new();
-        let mut quoted = false;
-        while let Some(byte) = self.peek()? {
-            if byte == b'\n' || byte == b'\r' {
-                break;
-            }
-            self.bump()?;
-            let escaped = raw.last() == Some(&b'\\');
-            raw.push(byte);
-            match byte {
-                b'"' if !escaped => quoted = !quoted,
-                b']' if !quoted => break,
-                _ => {}
-            }
-        }
-        Ok(decoded(raw.trim_ascii_end()))
-    }
-
-    fn until(&mut self, ends: impl Fn(u8) -> bool) -> io::Result<Vec<u8>> {
-        let mut bytes = Vec::new();
-        while let Some(byte) = self.peek()?.filter(|byte| !ends(*byte)) {
-            self.bump()?;
-            bytes.push(byte);
-        }
-        Ok(bytes)
     }
 }

@@ -36,11 +36,7 @@ impl FromStr for Selection {
             (!range.is_empty()).then_some(range)
         };
         text.split(',')
-            .map(|part| {
-                range(part).ok_or_else(|| ParseSelectionError {
-                    part: part.to_owned(),
-                })
-            })
+            .map(|part| range(part).ok_or_else(|| ParseSelectionError { part: part.to_owned() }))
             .collect::<Result<_, _>>()
             .map(Selection)
     }
@@ -70,9 +66,7 @@ impl FromStr for Moment {
         let by = |suffix, color| {
             text.strip_suffix(suffix).map(|number| {
                 let number: Option<u32> = number.parse().ok().filter(|number| *number > 0);
-                number
-                    .map(|number| Moment::After(number, color))
-                    .ok_or_else(error)
+                number.map(|number| Moment::After(number, color)).ok_or_else(error)
             })
         };
         match text {
@@ -125,13 +119,7 @@ mod tests {
 
     #[test]
     fn what_selects_nothing_is_refused() {
-        for (text, part) in [
-            ("", ""),
-            ("0", "0"),
-            ("3,,4", ""),
-            ("9-5", "9-5"),
-            ("1,x", "x"),
-        ] {
+        for (text, part) in [("", ""), ("0", "0"), ("3,,4", ""), ("9-5", "9-5"), ("1,x", "x")] {
             let error = text.parse::<Selection>().unwrap_err();
             assert_eq!(error.part, part, "{text:?}");
         }

@@ -29,10 +29,7 @@ pub enum SourceError {
         Some(problem) => format!("{problem}"),
         None => "expected tags or moves in PGN".to_owned(),
     })]
-    NoGames {
-        name: String,
-        problem: Option<super::Problem>,
-    },
+    NoGames { name: String, problem: Option<super::Problem> },
     #[error("{name}: cannot be read")]
     Io {
         name: String,
@@ -51,10 +48,7 @@ impl Source {
         let failed = |error: io::Error| match error.kind() {
             io::ErrorKind::NotFound => SourceError::Missing { name: name.clone() },
             io::ErrorKind::IsADirectory => SourceError::Folder { name: name.clone() },
-            _ => SourceError::Io {
-                name: name.clone(),
-                error,
-            },
+            _ => SourceError::Io { name: name.clone(), error },
         };
         let mut reader: Box<dyn BufRead> = if path == Path::new("-") {
             Box::new(BufReader::with_capacity(BUFFER, io::stdin()))
@@ -62,10 +56,7 @@ impl Source {
             if path.is_dir() {
                 return Err(SourceError::Folder { name });
             }
-            Box::new(BufReader::with_capacity(
-                BUFFER,
-                File::open(path).map_err(&failed)?,
-            ))
+            Box::new(BufReader::with_capacity(BUFFER, File::open(path).map_err(&failed)?))
         };
         let beginning = reader.fill_buf().map_err(&failed)?;
         match beginning {
@@ -108,10 +99,7 @@ impl Source {
                     }
                     Some(Err(error)) => {
                         ended = true;
-                        return Some(Err(SourceError::Io {
-                            name: name.clone(),
-                            error,
-                        }));
+                        return Some(Err(SourceError::Io { name: name.clone(), error }));
                     }
                     None => ended = true,
                 }
@@ -119,10 +107,7 @@ impl Source {
             if number == 0 {
                 number = usize::MAX;
                 let problem = strays.drain(..).next();
-                return Some(Err(SourceError::NoGames {
-                    name: name.clone(),
-                    problem,
-                }));
+                return Some(Err(SourceError::NoGames { name: name.clone(), problem }));
             }
             None
         })

@@ -18,11 +18,8 @@ pub struct Refusal {
 /// The start position that `tags` describe.
 pub fn setup(tags: &[(String, String)]) -> Result<Setup, Refusal> {
     let variant = tag(tags, "Variant").unwrap_or_default();
-    let plain: String = variant
-        .to_lowercase()
-        .chars()
-        .filter(|c| !matches!(c, ' ' | '-' | '_'))
-        .collect();
+    let plain: String =
+        variant.to_lowercase().chars().filter(|c| !matches!(c, ' ' | '-' | '_')).collect();
     if !STANDARD.contains(&plain.as_str()) && !CHESS960.contains(&plain.as_str()) {
         return Err(Refusal {
             token: format!("[Variant \"{variant}\"]"),
@@ -30,17 +27,11 @@ pub fn setup(tags: &[(String, String)]) -> Result<Setup, Refusal> {
                 .to_owned(),
         });
     }
-    match tag(tags, "FEN")
-        .map(str::trim)
-        .filter(|fen| !fen.is_empty() && *fen != "?")
-    {
-        Some(fen) => fen
-            .parse::<Fen>()
-            .map(Fen::into_setup)
-            .map_err(|error| Refusal {
-                token: format!("[FEN \"{fen}\"]"),
-                what: format!("is no position: {error}"),
-            }),
+    match tag(tags, "FEN").map(str::trim).filter(|fen| !fen.is_empty() && *fen != "?") {
+        Some(fen) => fen.parse::<Fen>().map(Fen::into_setup).map_err(|error| Refusal {
+            token: format!("[FEN \"{fen}\"]"),
+            what: format!("is no position: {error}"),
+        }),
         None if tag(tags, "SetUp").map(str::trim) == Some("1") => Err(Refusal {
             token: "[SetUp \"1\"]".to_owned(),
             what: "promises a FEN, but there is none".to_owned(),
@@ -53,14 +44,15 @@ pub fn setup(tags: &[(String, String)]) -> Result<Setup, Refusal> {
     }
 }
 
-/// The position to play from; castling is read in the Chess960 way, which covers both. What does
+/// The position to play from, or why there is none; castling is read in the Chess960 way, which covers both. What does
 /// not hinder play (too many pieces, castling rights without a rook) is let pass.
-pub fn position(setup: &Setup) -> Result<Chess, PositionError<Chess>> {
+pub fn position(setup: &Setup) -> Result<Chess, String> {
     Chess::from_setup(setup.clone(), CastlingMode::Chess960)
         .or_else(PositionError::ignore_too_much_material)
         .or_else(PositionError::ignore_invalid_castling_rights)
         .or_else(PositionError::ignore_invalid_ep_square)
         .or_else(PositionError::ignore_impossible_check)
+        .map_err(|error| error.to_string())
 }
 
 /// `setup` as a FEN, cleaned by the rules where it is a position that can be played.

@@ -13,35 +13,24 @@ pub struct Bounds {
 
 impl Bounds {
     /// The box that holds nothing; the neutral element of [`Bounds::union`].
-    pub const EMPTY: Bounds = Bounds {
-        min: DVec3::INFINITY,
-        max: DVec3::NEG_INFINITY,
-    };
+    pub const EMPTY: Bounds = Bounds { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
 
     /// The smallest box that holds all `points`.
     pub fn of(points: impl IntoIterator<Item = DVec3>) -> Bounds {
-        points
-            .into_iter()
-            .fold(Bounds::EMPTY, |bounds, point| Bounds {
-                min: bounds.min.min(point),
-                max: bounds.max.max(point),
-            })
+        points.into_iter().fold(Bounds::EMPTY, |bounds, point| Bounds {
+            min: bounds.min.min(point),
+            max: bounds.max.max(point),
+        })
     }
 
     /// The smallest box that holds both.
     pub fn union(self, other: Bounds) -> Bounds {
-        Bounds {
-            min: self.min.min(other.min),
-            max: self.max.max(other.max),
-        }
+        Bounds { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
     /// The box that both have in common; it may be empty (`min > max`).
     pub fn intersection(self, other: Bounds) -> Bounds {
-        Bounds {
-            min: self.min.max(other.min),
-            max: self.max.min(other.max),
-        }
+        Bounds { min: self.min.max(other.min), max: self.max.min(other.max) }
     }
 
     /// The smallest box round this one after `transform`.
@@ -80,14 +69,8 @@ mod tests {
 
     #[test]
     fn a_ray_along_an_axis_is_clipped_by_that_axis_alone() {
-        let bounds = Bounds {
-            min: DVec3::ZERO,
-            max: DVec3::ONE,
-        };
-        let ray = |x, direction| Ray {
-            origin: DVec3::new(x, 0.5, -2.0),
-            direction,
-        };
+        let bounds = Bounds { min: DVec3::ZERO, max: DVec3::ONE };
+        let ray = |x, direction| Ray { origin: DVec3::new(x, 0.5, -2.0), direction };
         let clipped = bounds.clip(&ray(0.5, DVec3::Z), Range::AHEAD);
         assert_eq!(clipped, Some(Range { min: 2.0, max: 3.0 }));
         assert_eq!(bounds.clip(&ray(1.5, DVec3::Z), Range::AHEAD), None);

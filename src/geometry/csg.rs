@@ -39,10 +39,7 @@ impl Operation {
 impl Csg {
     /// A tree of one solid.
     pub fn leaf(solid: impl Solid + 'static) -> Csg {
-        Csg {
-            bounds: solid.bounds(),
-            node: Node::Leaf(Arc::new(solid)),
-        }
+        Csg { bounds: solid.bounds(), node: Node::Leaf(Arc::new(solid)) }
     }
 
     /// What lies in this or in `other`.
@@ -69,10 +66,7 @@ impl Csg {
     }
 
     fn joined(self, operation: Operation, other: Csg, bounds: Bounds) -> Csg {
-        Csg {
-            node: Node::Pair(operation, Box::new([self, other])),
-            bounds,
-        }
+        Csg { node: Node::Pair(operation, Box::new([self, other])), bounds }
     }
 }
 
@@ -125,13 +119,7 @@ fn combine(operation: Operation, first: &Spans, second: &Spans, spans: &mut Span
         ..end
     };
     let ends = |list: &Spans, index: usize| {
-        list.get(index / 2).map(|span| {
-            if index % 2 == 0 {
-                span.enter
-            } else {
-                span.exit
-            }
-        })
+        list.get(index / 2).map(|span| [span.enter, span.exit][index % 2])
     };
     let [mut i, mut j] = [0, 0];
     let mut enter: Option<Crossing> = None;
@@ -148,10 +136,7 @@ fn combine(operation: Operation, first: &Spans, second: &Spans, spans: &mut Span
             None if inside => enter = Some(end),
             Some(start) if !inside => {
                 if start.t < end.t {
-                    spans.push(Span {
-                        enter: start,
-                        exit: end,
-                    });
+                    spans.push(Span { enter: start, exit: end });
                 }
                 enter = None;
             }

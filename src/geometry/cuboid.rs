@@ -14,19 +14,13 @@ pub struct Cuboid {
 impl Cuboid {
     /// The box of the given half-sizes round the origin.
     pub fn centered(half: DVec3) -> Cuboid {
-        Cuboid {
-            min: -half,
-            max: half,
-        }
+        Cuboid { min: -half, max: half }
     }
 }
 
 impl Solid for Cuboid {
     fn bounds(&self) -> Bounds {
-        Bounds {
-            min: self.min,
-            max: self.max,
-        }
+        Bounds { min: self.min, max: self.max }
     }
 
     fn contains(&self, point: DVec3) -> bool {
@@ -34,14 +28,8 @@ impl Solid for Cuboid {
     }
 
     fn spans(&self, ray: &Ray, spans: &mut Spans) {
-        let mut enter = Crossing {
-            t: f64::NEG_INFINITY,
-            normal: DVec3::ZERO,
-        };
-        let mut exit = Crossing {
-            t: f64::INFINITY,
-            normal: DVec3::ZERO,
-        };
+        let mut enter = Crossing { t: f64::NEG_INFINITY, normal: DVec3::ZERO };
+        let mut exit = Crossing { t: f64::INFINITY, normal: DVec3::ZERO };
         for axis in 0..3 {
             let (origin, direction) = (ray.origin[axis], ray.direction[axis]);
             if direction == 0.0 {
@@ -51,19 +39,9 @@ impl Solid for Cuboid {
                 continue;
             }
             let outward = DVec3::AXES[axis];
-            let low = Crossing {
-                t: (self.min[axis] - origin) / direction,
-                normal: -outward,
-            };
-            let high = Crossing {
-                t: (self.max[axis] - origin) / direction,
-                normal: outward,
-            };
-            let (near, far) = if direction > 0.0 {
-                (low, high)
-            } else {
-                (high, low)
-            };
+            let low = Crossing { t: (self.min[axis] - origin) / direction, normal: -outward };
+            let high = Crossing { t: (self.max[axis] - origin) / direction, normal: outward };
+            let (near, far) = if direction > 0.0 { (low, high) } else { (high, low) };
             if near.t > enter.t {
                 enter = near;
             }

@@ -42,23 +42,14 @@ impl Profile {
         for (index, point) in points.iter().enumerate() {
             let (radius, height) = (point.at.x, point.at.y);
             if !(radius >= 0.0 && radius.is_finite()) {
-                return Err(ProfileError::BadRadius {
-                    point: index + 1,
-                    radius,
-                });
+                return Err(ProfileError::BadRadius { point: index + 1, radius });
             }
             if !height.is_finite() {
-                return Err(ProfileError::BadHeight {
-                    point: index + 1,
-                    height,
-                });
+                return Err(ProfileError::BadHeight { point: index + 1, height });
             }
         }
         if first.at.x != 0.0 || last.at.x != 0.0 {
-            return Err(ProfileError::OffAxis {
-                first: first.at.x,
-                last: last.at.x,
-            });
+            return Err(ProfileError::OffAxis { first: first.at.x, last: last.at.x });
         }
         Ok(Profile(points))
     }
@@ -82,20 +73,14 @@ impl Profile {
 fn subdivide(points: &[ControlPoint]) -> Vec<ControlPoint> {
     let mut finer = Vec::with_capacity(2 * points.len());
     for (index, &point) in points.iter().enumerate() {
-        let neighbours = index
-            .checked_sub(1)
-            .map(|i| points[i])
-            .zip(points.get(index + 1));
+        let neighbours = index.checked_sub(1).map(|i| points[i]).zip(points.get(index + 1));
         let at = match neighbours {
             Some((before, after)) if !point.corner => (before.at + 6.0 * point.at + after.at) / 8.0,
             _ => point.at,
         };
         finer.push(ControlPoint { at, ..point });
         if let Some(after) = points.get(index + 1) {
-            finer.push(ControlPoint {
-                at: (point.at + after.at) / 2.0,
-                corner: false,
-            });
+            finer.push(ControlPoint { at: (point.at + after.at) / 2.0, corner: false });
         }
     }
     finer
@@ -106,12 +91,7 @@ mod tests {
     use super::*;
 
     fn points(list: &[(f64, f64, bool)]) -> Vec<ControlPoint> {
-        list.iter()
-            .map(|&(u, v, corner)| ControlPoint {
-                at: DVec2::new(u, v),
-                corner,
-            })
-            .collect()
+        list.iter().map(|&(u, v, corner)| ControlPoint { at: DVec2::new(u, v), corner }).collect()
     }
 
     #[test]
@@ -123,16 +103,9 @@ mod tests {
             (0.0, 8.0, false),
         ]))
         .unwrap();
-        let expected = [
-            (0.0, 0.0),
-            (4.0, 0.0),
-            (7.0, 1.0),
-            (8.0, 4.0),
-            (8.0, 8.0),
-            (4.0, 8.0),
-            (0.0, 8.0),
-        ]
-        .map(DVec2::from);
+        let expected =
+            [(0.0, 0.0), (4.0, 0.0), (7.0, 1.0), (8.0, 4.0), (8.0, 8.0), (4.0, 8.0), (0.0, 8.0)]
+                .map(DVec2::from);
         assert_eq!(profile.subdivided(1), expected);
     }
 
@@ -160,10 +133,7 @@ mod tests {
                 points(&[(0.0, 0.0, true), (1.0, f64::NAN, true), (0.0, 2.0, true)]),
                 "point 2 of the profile has the height NaN",
             ),
-            (
-                points(&[(0.0, 0.0, true), (1.0, 1.0, true), (0.5, 2.0, true)]),
-                "found 0 and 0.5",
-            ),
+            (points(&[(0.0, 0.0, true), (1.0, 1.0, true), (0.5, 2.0, true)]), "found 0 and 0.5"),
         ];
         for (list, message) in cases {
             let error = Profile::new(list).unwrap_err().to_string();

@@ -50,12 +50,7 @@ impl Lathe {
             .map(|ends| {
                 let along = (ends[1] - ends[0]).normalize();
                 let normal = DVec2::new(along.y, -along.x);
-                Segment {
-                    from: ends[0],
-                    to: ends[1],
-                    normal,
-                    w: normal.dot(ends[0]),
-                }
+                Segment { from: ends[0], to: ends[1], normal, w: normal.dot(ends[0]) }
             })
             // A stretch of the axis itself bounds nothing.
             .filter(|segment| segment.from.x > 0.0 || segment.to.x > 0.0)
@@ -63,17 +58,11 @@ impl Lathe {
         let mut tree = Vec::with_capacity(2 * segments.len());
         build(&segments, 0, segments.len(), &mut tree);
         let radius = polygon.iter().fold(0.0, |radius: f64, p| radius.max(p.x));
-        let bounds = Bounds::of(polygon.iter().flat_map(|p| {
-            [
-                DVec3::new(radius, p.y, radius),
-                DVec3::new(-radius, p.y, -radius),
-            ]
-        }));
-        Lathe {
-            segments,
-            tree,
-            bounds,
-        }
+        let bounds =
+            Bounds::of(polygon.iter().flat_map(|p| {
+                [DVec3::new(radius, p.y, radius), DVec3::new(-radius, p.y, -radius)]
+            }));
+        Lathe { segments, tree, bounds }
     }
 
     /// Calls `found(t, segment)` for each crossing of the line of `ray` within `range`, in no
@@ -122,10 +111,7 @@ fn build(segments: &[Segment], start: usize, end: usize, tree: &mut Vec<Node>) {
         right: 0,
         segment: start,
     };
-    for point in segments[start..end]
-        .iter()
-        .flat_map(|segment| [segment.from, segment.to])
-    {
+    for point in segments[start..end].iter().flat_map(|segment| [segment.from, segment.to]) {
         node.min_u2 = node.min_u2.min((point.x - MARGIN).max(0.0).powi(2));
         node.max_u2 = node.max_u2.max((point.x + MARGIN).powi(2));
         node.min_v = node.min_v.min(point.y - MARGIN);
@@ -212,10 +198,7 @@ impl AxisLine {
         };
         if nu == 0.0 {
             // A flat ring: the plane v = w / nv.
-            return [-h / g]
-                .into_iter()
-                .filter(|&t| t.is_finite() && owns(t))
-                .collect();
+            return [-h / g].into_iter().filter(|&t| t.is_finite() && owns(t)).collect();
         }
         let nu2 = nu * nu;
         let a = nu2 * self.qq - g * g;
@@ -265,10 +248,7 @@ impl Solid for Lathe {
     fn spans(&self, ray: &Ray, spans: &mut Spans) {
         let mut ends: smallvec::SmallVec<[Crossing; 8]> = smallvec::SmallVec::new();
         self.crossings(ray, Range::WHOLE_LINE, |t, segment| {
-            ends.push(Crossing {
-                t,
-                normal: segment.normal_at(ray.at(t)),
-            });
+            ends.push(Crossing { t, normal: segment.normal_at(ray.at(t)) });
             f64::INFINITY
         });
         ends.sort_by(|a, b| a.t.total_cmp(&b.t));
@@ -291,9 +271,6 @@ impl Solid for Lathe {
             }
             t
         });
-        nearest.map(|(t, segment)| Crossing {
-            t,
-            normal: segment.normal_at(ray.at(t)),
-        })
+        nearest.map(|(t, segment)| Crossing { t, normal: segment.normal_at(ray.at(t)) })
     }
 }

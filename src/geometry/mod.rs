@@ -54,8 +54,5 @@ fn nearest_end(solid: &(impl Solid + ?Sized), ray: &Ray, range: Range) -> Option
     solid.bounds().clip(ray, range)?;
     let mut spans = Spans::new();
     solid.spans(ray, &mut spans);
-    spans
-        .iter()
-        .flat_map(|span| [span.enter, span.exit])
-        .find(|crossing| range.holds(crossing.t))
+    spans.iter().flat_map(|span| [span.enter, span.exit]).find(|crossing| range.holds(crossing.t))
 }

@@ -40,10 +40,7 @@ impl Placed {
     }
 
     fn carried(&self, crossing: Crossing) -> Crossing {
-        Crossing {
-            t: crossing.t,
-            normal: (self.normals * crossing.normal).normalize(),
-        }
+        Crossing { t: crossing.t, normal: (self.normals * crossing.normal).normalize() }
     }
 }
 
@@ -59,10 +56,12 @@ impl Solid for Placed {
     fn spans(&self, ray: &Ray, spans: &mut Spans) {
         let mut own = Spans::new();
         self.solid.spans(&self.own_ray(ray), &mut own);
-        spans.extend(own.into_iter().map(|span| Span {
-            enter: self.carried(span.enter),
-            exit: self.carried(span.exit),
-        }));
+        spans.extend(
+            own.into_iter().map(|span| Span {
+                enter: self.carried(span.enter),
+                exit: self.carried(span.exit),
+            }),
+        );
     }
 
     fn nearest(&self, ray: &Ray, range: Range) -> Option<Crossing> {

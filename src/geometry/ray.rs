@@ -29,16 +29,10 @@ pub struct Range {
 
 impl Range {
     /// All that lies in front of a ray's origin.
-    pub const AHEAD: Range = Range {
-        min: 0.0,
-        max: f64::INFINITY,
-    };
+    pub const AHEAD: Range = Range { min: 0.0, max: f64::INFINITY };
 
     /// Everything, behind the origin too.
-    pub const WHOLE_LINE: Range = Range {
-        min: f64::NEG_INFINITY,
-        max: f64::INFINITY,
-    };
+    pub const WHOLE_LINE: Range = Range { min: f64::NEG_INFINITY, max: f64::INFINITY };
 
     /// Everything in front of the origin and nearer than `max`.
     pub fn up_to(max: f64) -> Range {

@@ -13,10 +13,7 @@ pub struct Sphere {
 
 impl Solid for Sphere {
     fn bounds(&self) -> Bounds {
-        Bounds {
-            min: self.center - self.radius,
-            max: self.center + self.radius,
-        }
+        Bounds { min: self.center - self.radius, max: self.center + self.radius }
     }
 
     fn contains(&self, point: DVec3) -> bool {
@@ -33,10 +30,7 @@ impl Solid for Sphere {
             return;
         }
         let root = discriminant.sqrt();
-        let crossing = |t: f64| Crossing {
-            t,
-            normal: (ray.at(t) - self.center) / self.radius,
-        };
+        let crossing = |t: f64| Crossing { t, normal: (ray.at(t) - self.center) / self.radius };
         spans.push(Span {
             enter: crossing((-half_b - root) / a),
             exit: crossing((-half_b + root) / a),

@@ -8,32 +8,20 @@ use glam::{DAffine3, DMat3, DVec3};
 /// The turn about the x axis that takes y towards z.
 pub fn rotation_x(degrees: f64) -> DAffine3 {
     let (sin, cos) = sin_cos(degrees);
-    turn(
-        DVec3::X,
-        DVec3::new(0.0, cos, sin),
-        DVec3::new(0.0, -sin, cos),
-    )
+    turn(DVec3::X, DVec3::new(0.0, cos, sin), DVec3::new(0.0, -sin, cos))
 }
 
 /// The turn about the y axis that takes x towards z: anticlockwise, seen from above a board with
 /// its a-file on the left.
 pub fn rotation_y(degrees: f64) -> DAffine3 {
     let (sin, cos) = sin_cos(degrees);
-    turn(
-        DVec3::new(cos, 0.0, sin),
-        DVec3::Y,
-        DVec3::new(-sin, 0.0, cos),
-    )
+    turn(DVec3::new(cos, 0.0, sin), DVec3::Y, DVec3::new(-sin, 0.0, cos))
 }
 
 /// The turn about the z axis that takes x towards y.
 pub fn rotation_z(degrees: f64) -> DAffine3 {
     let (sin, cos) = sin_cos(degrees);
-    turn(
-        DVec3::new(cos, sin, 0.0),
-        DVec3::new(-sin, cos, 0.0),
-        DVec3::Z,
-    )
+    turn(DVec3::new(cos, sin, 0.0), DVec3::new(-sin, cos, 0.0), DVec3::Z)
 }
 
 /// The move by `by`.

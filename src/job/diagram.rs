@@ -26,11 +26,7 @@ pub enum Subject {
     /// Pieces on squares; with the text that they were read from, for the picture's own text.
     Placement { placement: Placement, fen: String },
     /// A position of a game.
-    Game {
-        file: PathBuf,
-        number: usize,
-        at: Moment,
-    },
+    Game { file: PathBuf, number: usize, at: Moment },
 }
 
 /// Renders one position and counts its rays.
@@ -41,10 +37,7 @@ pub fn diagram(job: &DiagramJob) -> Result<RayCounts, JobError> {
     let (placement, texts) = read(&job.subject)?;
     let mut studio = Studio::new(&job.picture)?;
     let to_stdout = job.output == Path::new("-");
-    let folder = job
-        .output
-        .parent()
-        .filter(|folder| !folder.as_os_str().is_empty());
+    let folder = job.output.parent().filter(|folder| !folder.as_os_str().is_empty());
     if let (false, Some(folder)) = (to_stdout, folder) {
         prepare_folder(folder)?;
     }
@@ -79,7 +72,7 @@ fn read(subject: &Subject) -> Result<(Placement, Texts), JobError> {
                         problem: problem.to_string(),
                     });
                 }
-                let ply = at.ply(&game).ok_or_else(|| JobError::NoSuchMoment {
+                let ply = at.ply(&game).ok_or(JobError::NoSuchMoment {
                     file: name,
                     game: *number,
                     moment: *at,
@@ -94,8 +87,5 @@ fn read(subject: &Subject) -> Result<(Placement, Texts), JobError> {
 }
 
 fn still(ply: usize, game: &crate::game::Game) -> Frame {
-    Frame {
-        ply,
-        ..Frame::still(game.placement(ply))
-    }
+    Frame { ply, ..Frame::still(game.placement(ply)) }
 }

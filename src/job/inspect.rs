@@ -36,20 +36,12 @@ pub fn inspect(job: &InspectJob, out: &mut dyn Write) -> Result<usize, JobError>
         for game in Source::open(input)?.games() {
             let game = game?;
             seen += 1;
-            if job
-                .selection
-                .as_ref()
-                .is_some_and(|selection| !selection.contains(game.number))
-            {
+            if job.selection.as_ref().is_some_and(|selection| !selection.contains(game.number)) {
                 continue;
             }
             selected += 1;
             partial += usize::from(!game.is_whole());
-            let written = if job.positions {
-                positions(&game, out)
-            } else {
-                line(&game, out)
-            };
+            let written = if job.positions { positions(&game, out) } else { line(&game, out) };
             written.map_err(JobError::Write)?;
         }
         if selected == 0 {
@@ -63,10 +55,7 @@ pub fn inspect(job: &InspectJob, out: &mut dyn Write) -> Result<usize, JobError>
 fn line(game: &Game, out: &mut dyn Write) -> std::io::Result<()> {
     let [white, black] = [Color::White, Color::Black].map(|color| game.player(color));
     let (number, result, plies) = (game.number, &game.result, game.plies.len());
-    write!(
-        out,
-        "{number:>5}  {white} – {black}  {result}  {plies} plies"
-    )?;
+    write!(out, "{number:>5}  {white} – {black}  {result}  {plies} plies")?;
     for (name, value) in ["Event", "Date"].map(|name| (name, game.tag(name))) {
         if let Some(value) = value {
             write!(out, "  {name} {value}")?;
@@ -88,11 +77,7 @@ fn positions(game: &Game, out: &mut dyn Write) -> std::io::Result<()> {
         let [white, black] = [Color::White, Color::Black].map(|color| placement.notation(color));
         let san = game.san(ply).unwrap_or("-");
         let fen = game.fen(ply);
-        writeln!(
-            out,
-            "{}\t{ply}\t{san}\t{fen}\t{white}\t{black}",
-            game.number
-        )?;
+        writeln!(out, "{}\t{ply}\t{san}\t{fen}\t{white}\t{black}", game.number)?;
     }
     Ok(())
 }

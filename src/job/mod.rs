@@ -33,18 +33,9 @@ pub enum JobError {
     #[error(
         "{file}: game {game} has no position {moment}, its last one is after {plies} half-moves"
     )]
-    NoSuchMoment {
-        file: String,
-        game: usize,
-        moment: Moment,
-        plies: usize,
-    },
+    NoSuchMoment { file: String, game: usize, moment: Moment, plies: usize },
     #[error("{file}: game {game} has no position that is certain, {problem}")]
-    NoPosition {
-        file: String,
-        game: usize,
-        problem: String,
-    },
+    NoPosition { file: String, game: usize, problem: String },
     #[error("the piece set cannot be built")]
     Set(#[from] ProfileError),
     #[error("{threads} threads cannot be started")]

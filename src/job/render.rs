@@ -80,15 +80,7 @@ pub fn render(job: &RenderJob, progress: &dyn Progress) -> Result<Summary, JobEr
             if summary.cancelled {
                 break;
             }
-            report.push(render_game(
-                job,
-                batch,
-                game,
-                plan,
-                &mut studio,
-                progress,
-                &mut summary,
-            )?);
+            report.push(render_game(job, batch, game, plan, &mut studio, progress, &mut summary)?);
         }
         write_json_lines(&batch.folder.join("report.jsonl"), &report)?;
     }
@@ -137,11 +129,7 @@ fn read_batch(
     for game in Source::open(input)?.games() {
         let mut game = game?;
         seen += 1;
-        if job
-            .selection
-            .as_ref()
-            .is_some_and(|selection| !selection.contains(game.number))
-        {
+        if job.selection.as_ref().is_some_and(|selection| !selection.contains(game.number)) {
             continue;
         }
         let plan = plan(job, &mut game);
@@ -153,11 +141,7 @@ fn read_batch(
     if games.is_empty() {
         return Err(JobError::NothingSelected { file, games: seen });
     }
-    Ok(Batch {
-        file,
-        folder,
-        games,
-    })
+    Ok(Batch { file, folder, games })
 }
 
 /// What to show of a game; why not is added to its problems.
@@ -234,11 +218,7 @@ fn render_game(
     };
     write_json(&folder.join("game.json"), &manifest)?;
     let whole = game.is_whole() && !summary.cancelled;
-    let status = if whole {
-        Status::Rendered
-    } else {
-        Status::Partial
-    };
+    let status = if whole { Status::Rendered } else { Status::Partial };
     match status {
         Status::Rendered => summary.rendered += 1,
         _ => summary.partial += 1,

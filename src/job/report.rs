@@ -96,10 +96,7 @@ impl FrameRow {
         let players = [Color::White, Color::Black].map(|color| game.player(color));
         vec![
             ("Title", players.join(" - ")),
-            (
-                "Software",
-                concat!("lightsquare ", env!("CARGO_PKG_VERSION")).to_owned(),
-            ),
+            ("Software", concat!("lightsquare ", env!("CARGO_PKG_VERSION")).to_owned()),
             ("Game", game.number.to_string()),
             ("Ply", self.ply.to_string()),
             ("SAN", self.san.clone().unwrap_or_else(|| "-".to_owned())),
@@ -109,10 +106,7 @@ impl FrameRow {
 }
 
 pub fn tags(game: &Game) -> Map<String, Value> {
-    game.tags
-        .iter()
-        .map(|(name, value)| (name.clone(), value.clone().into()))
-        .collect()
+    game.tags.iter().map(|(name, value)| (name.clone(), value.clone().into())).collect()
 }
 
 pub fn problems(problems: &[Problem]) -> Vec<ProblemRecord> {

@@ -51,9 +51,7 @@ impl<'a> Studio<'a> {
         let scene = self.stage.scene(frame);
         let Config { width, height, .. } = self.settings.config;
         let mode = self.settings.antialiasing;
-        let (picture, rays) = self
-            .threads
-            .install(|| tracer::render(&scene, width, height, mode));
+        let (picture, rays) = self.threads.install(|| tracer::render(&scene, width, height, mode));
         self.rays = self.rays + rays;
         picture
     }

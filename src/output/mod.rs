@@ -28,10 +28,7 @@ pub struct OutputError {
 /// # Errors
 /// When that cannot be done.
 pub fn prepare_folder(folder: &Path) -> Result<(), OutputError> {
-    let failed = |error| OutputError {
-        path: folder.to_owned(),
-        error,
-    };
+    let failed = |error| OutputError { path: folder.to_owned(), error };
     fs::create_dir_all(folder).map_err(failed)?;
     tempfile::tempfile_in(folder).map_err(failed)?;
     Ok(())
@@ -42,9 +39,7 @@ fn write_whole(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), OutputError> {
-    let folder = path
-        .parent()
-        .filter(|folder| !folder.as_os_str().is_empty());
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
     let write_renamed = || {
         let mut builder = tempfile::Builder::new();
         builder.prefix(".lightsquare-");
@@ -54,14 +49,9 @@ fn write_whole(
         let file = builder.tempfile_in(folder.unwrap_or(Path::new(".")))?;
         let mut buffered = BufWriter::new(file);
         write(&mut buffered)?;
-        let file = buffered
-            .into_inner()
-            .map_err(io::IntoInnerError::into_error)?;
+        let file = buffered.into_inner().map_err(io::IntoInnerError::into_error)?;
         file.persist(path).map_err(|error| error.error)?;
         Ok(())
     };
-    write_renamed().map_err(|error| OutputError {
-        path: path.to_owned(),
-        error,
-    })
+    write_renamed().map_err(|error| OutputError { path: path.to_owned(), error })
 }

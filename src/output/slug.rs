@@ -30,10 +30,7 @@ mod tests {
             ("Алехин", "alekhin"),
             ("../../etc/passwd", "etc-passwd"),
             ("?", ""),
-            (
-                "Duke Karl of Brunswick and Count Isouard",
-                "duke-karl-of-brunswick-a",
-            ),
+            ("Duke Karl of Brunswick and Count Isouard", "duke-karl-of-brunswick-a"),
         ];
         for (name, expected) in cases {
             assert_eq!(slug(name), expected);

@@ -50,21 +50,16 @@ pub fn board() -> [Object; 2] {
             size: 14.0,
         },
     };
-    [
-        (block(HALF - RIM, -2.0 * STEP, 0.0), slab),
-        (block(HALF + FRAME, -DEPTH, -STEP), base),
-    ]
-    .map(|(cuboid, material)| Object {
-        body: Placed::new(Arc::new(cuboid), DAffine3::IDENTITY),
-        material,
-    })
+    [(block(HALF - RIM, -2.0 * STEP, 0.0), slab), (block(HALF + FRAME, -DEPTH, -STEP), base)].map(
+        |(cuboid, material)| Object {
+            body: Placed::new(Arc::new(cuboid), DAffine3::IDENTITY),
+            material,
+        },
+    )
 }
 
 /// A flat square block round the board's middle.
 fn block(half_width: f64, bottom: f64, top: f64) -> Cuboid {
     let half = DVec3::new(half_width, 0.0, half_width);
-    Cuboid {
-        min: MIDDLE - half + DVec3::Y * bottom,
-        max: MIDDLE + half + DVec3::Y * top,
-    }
+    Cuboid { min: MIDDLE - half + DVec3::Y * bottom, max: MIDDLE + half + DVec3::Y * top }
 }

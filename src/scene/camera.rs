@@ -23,11 +23,8 @@ impl Camera {
     pub fn new(settings: &config::Camera) -> Camera {
         let forward = (settings.look_at - settings.position).normalize();
         // Straight up or down there is no upright; rank 8 then points up in the picture.
-        let upright = if forward.cross(DVec3::Y).length_squared() < 1e-18 {
-            DVec3::Z
-        } else {
-            DVec3::Y
-        };
+        let upright =
+            if forward.cross(DVec3::Y).length_squared() < 1e-18 { DVec3::Z } else { DVec3::Y };
         let level = upright.cross(forward).normalize();
         let above = forward.cross(level);
         // A positive roll turns a ray from x towards y, which turns the picture clockwise.
@@ -81,10 +78,8 @@ mod tests {
 
     #[test]
     fn the_world_is_left_handed() {
-        let settings = config::Camera {
-            position: DVec3::new(14.0, 20.0, -30.0),
-            ..Config::default().camera
-        };
+        let settings =
+            config::Camera { position: DVec3::new(14.0, 20.0, -30.0), ..Config::default().camera };
         let camera = Camera::new(&settings);
         let (a_file, _) = seen_at(&camera, DVec3::ZERO);
         let (h_file, first_rank) = seen_at(&camera, DVec3::new(28.0, 0.0, 0.0));
@@ -112,10 +107,8 @@ mod tests {
 
     #[test]
     fn straight_down_has_rank_8_on_top() {
-        let settings = config::Camera {
-            position: DVec3::new(14.0, 60.0, 14.0),
-            ..Config::default().camera
-        };
+        let settings =
+            config::Camera { position: DVec3::new(14.0, 60.0, 14.0), ..Config::default().camera };
         let camera = Camera::new(&settings);
         assert_eq!(seen_at(&camera, DVec3::new(14.0, 0.0, 14.0)), (0.0, 0.0));
         let (x, y) = seen_at(&camera, DVec3::new(0.0, 0.0, 28.0));

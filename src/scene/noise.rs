@@ -53,9 +53,8 @@ mod tests {
     #[test]
     fn noise_has_the_mean_zero() {
         let points = 20_000;
-        let sum: f64 = (0..points)
-            .map(|step| perlin(DVec3::new(1.37, 2.71, -3.17) * f64::from(step)))
-            .sum();
+        let sum: f64 =
+            (0..points).map(|step| perlin(DVec3::new(1.37, 2.71, -3.17) * f64::from(step))).sum();
         let mean = sum / f64::from(points);
         assert!(mean.abs() < 0.01, "{mean}");
     }

@@ -32,10 +32,7 @@ impl Stage {
     /// Sets the stage as `config` says, with the pieces of `set`.
     pub fn new(config: &Config, set: PieceSet) -> Stage {
         Stage {
-            pieces: [
-                set.pawn, set.knight, set.bishop, set.rook, set.queen, set.king,
-            ]
-            .map(Arc::new),
+            pieces: [set.pawn, set.knight, set.bishop, set.rook, set.queen, set.king].map(Arc::new),
             board: board(),
             lights: config.lights.clone(),
             camera: Camera::new(&config.camera),
@@ -45,22 +42,11 @@ impl Stage {
 
     /// What `frame` shows.
     pub fn scene(&self, frame: &Frame) -> Scene {
-        let standing = frame
-            .placement
-            .iter()
-            .map(|(square, piece)| self.object(piece, Spot::on(square)));
-        let moving = frame
-            .movers
-            .iter()
-            .map(|mover| self.object(mover.piece, mover.spot));
+        let standing =
+            frame.placement.iter().map(|(square, piece)| self.object(piece, Spot::on(square)));
+        let moving = frame.movers.iter().map(|mover| self.object(mover.piece, mover.spot));
         Scene {
-            objects: self
-                .board
-                .iter()
-                .cloned()
-                .chain(standing)
-                .chain(moving)
-                .collect(),
+            objects: self.board.iter().cloned().chain(standing).chain(moving).collect(),
             lights: self.lights.clone(),
             camera: self.camera.orbited(MIDDLE, frame.orbit),
             background: self.background,

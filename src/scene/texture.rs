@@ -31,11 +31,7 @@ impl Texture {
     pub fn color(&self, point: DVec3) -> Rgb {
         match self {
             Texture::Plain(color) => *color,
-            Texture::Chequer {
-                origin,
-                side,
-                colors,
-            } => {
+            Texture::Chequer { origin, side, colors } => {
                 let cell = ((DVec2::new(point.x, point.z) - origin) / side).floor();
                 colors[usize::from((cell.x + cell.y).rem_euclid(2.0) >= 1.0)]
             }

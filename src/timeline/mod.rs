@@ -30,13 +30,7 @@ pub struct Film {
 
 impl Default for Film {
     fn default() -> Film {
-        Film {
-            fps: 25.0,
-            transition: 0.6,
-            pause: 0.8,
-            first: 1.0,
-            last: 5.0,
-        }
+        Film { fps: 25.0, transition: 0.6, pause: 0.8, first: 1.0, last: 5.0 }
     }
 }
 
@@ -51,11 +45,7 @@ impl Film {
 
     /// When the position after so many moves is reached.
     fn reached(&self, moves: usize) -> f64 {
-        if moves == 0 {
-            0.0
-        } else {
-            self.length(moves) - self.last
-        }
+        if moves == 0 { 0.0 } else { self.length(moves) - self.last }
     }
 }
 
@@ -93,11 +83,7 @@ impl Frame {
 
     /// Whether both frames are the same picture, whatever their times.
     pub fn shows_the_same(&self, other: &Frame) -> bool {
-        let bare = |frame: &Frame| Frame {
-            time: 0.0,
-            ply: 0,
-            ..frame.clone()
-        };
+        let bare = |frame: &Frame| Frame { time: 0.0, ply: 0, ..frame.clone() };
         bare(self) == bare(other)
     }
 }
@@ -181,11 +167,7 @@ impl Timeline {
         if since_first <= 0.0 || moves == 0 {
             return self.at_rest(0, time);
         }
-        let begun = if period > 0.0 {
-            since_first / period
-        } else {
-            f64::INFINITY
-        };
+        let begun = if period > 0.0 { since_first / period } else { f64::INFINITY };
         if begun >= moves as f64 {
             return self.at_rest(moves, time);
         }
@@ -194,11 +176,7 @@ impl Timeline {
         if passed < 1.0 {
             let position = &self.positions[current];
             let (standing, movers) = self.motions[current].under_way(position, passed.max(0.0));
-            Frame {
-                placement: standing,
-                movers,
-                ..self.at_rest(current, time)
-            }
+            Frame { placement: standing, movers, ..self.at_rest(current, time) }
         } else {
             self.at_rest(current + 1, time)
         }

@@ -28,13 +28,7 @@ impl Motion {
     /// The paths of a legal move.
     pub fn new(played: &Move) -> Motion {
         let (paths, captured, dropped) = match *played {
-            Move::Normal {
-                role,
-                from,
-                capture,
-                to,
-                ..
-            } => {
+            Move::Normal { role, from, capture, to, .. } => {
                 let hops = role == Role::Knight;
                 (vec![(from, to, hops)], capture.map(|_| to), None)
             }
@@ -53,10 +47,7 @@ impl Motion {
             Move::Put { to, .. } => (vec![], None, Some(to)),
         };
         Motion {
-            paths: paths
-                .into_iter()
-                .filter(|(from, to, _)| from != to)
-                .collect(),
+            paths: paths.into_iter().filter(|(from, to, _)| from != to).collect(),
             captured,
             dropped,
         }
@@ -71,10 +62,7 @@ impl Motion {
         if let Some(square) = self.dropped {
             identities.set(square, square);
         }
-        Position {
-            placement,
-            identities,
-        }
+        Position { placement, identities }
     }
 
     /// What stands and what moves when the part `passed` (0 to 1) of the move's time is over.
@@ -84,11 +72,7 @@ impl Motion {
         let mut lift = |square: Square, spot: Spot| {
             if let Some(piece) = before.placement.get(square) {
                 standing.set(square, None);
-                movers.push(Mover {
-                    piece,
-                    identity: before.identities.get(square),
-                    spot,
-                });
+                movers.push(Mover { piece, identity: before.identities.get(square), spot });
             }
         };
         for &(from, to, hops) in &self.paths {
@@ -109,11 +93,7 @@ fn on_the_way(from: Square, to: Square, hops: bool, passed: f64) -> Spot {
         file: mix(from.file, to.file, along),
         rank: mix(from.rank, to.rank, along),
         // A hop rises at once and stays high while it passes over other pieces.
-        height: if hops {
-            HOP * (1.0 - (1.0 - arc).powi(2))
-        } else {
-            GLIDE * arc
-        },
+        height: if hops { HOP * (1.0 - (1.0 - arc).powi(2)) } else { GLIDE * arc },
     }
 }
 

@@ -15,11 +15,7 @@ impl Spot {
     /// The middle of `square`, on the board.
     pub fn on(square: Square) -> Spot {
         let (file, rank) = square.coords();
-        Spot {
-            file: f64::from(u32::from(file)),
-            rank: f64::from(u32::from(rank)),
-            height: 0.0,
-        }
+        Spot { file: f64::from(u32::from(file)), rank: f64::from(u32::from(rank)), height: 0.0 }
     }
 }
 
@@ -65,9 +61,6 @@ pub struct Position {
 impl Position {
     /// The position that a game starts from.
     pub fn new(placement: Placement) -> Position {
-        Position {
-            placement,
-            identities: Identities::default(),
-        }
+        Position { placement, identities: Identities::default() }
     }
 }

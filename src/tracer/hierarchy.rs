@@ -50,9 +50,7 @@ impl<'a> Hierarchy<'a> {
     /// Whether anything stands in the way of `ray` before `distance`.
     pub fn blocks(&self, ray: &Ray, distance: f64) -> bool {
         let mut range = Range::up_to(distance);
-        self.visit(ray, &mut range, |object, range| {
-            object.body.blocks(ray, *range)
-        })
+        self.visit(ray, &mut range, |object, range| object.body.blocks(ray, *range))
     }
 
     /// Shows `look` every object whose box meets `ray` within `range`, which `look` may shorten,
@@ -87,14 +85,9 @@ impl<'a> Hierarchy<'a> {
 
 fn build(objects: &[Object], order: &mut [usize], nodes: &mut Vec<Node>) {
     let bounds = |index: usize| objects[index].body.bounds();
-    let all = order
-        .iter()
-        .fold(Bounds::EMPTY, |all, &index| all.union(bounds(index)));
+    let all = order.iter().fold(Bounds::EMPTY, |all, &index| all.union(bounds(index)));
     let index = nodes.len();
-    nodes.push(Node {
-        bounds: all,
-        content: Content::Object(order[0]),
-    });
+    nodes.push(Node { bounds: all, content: Content::Object(order[0]) });
     if order.len() == 1 {
         return;
     }
@@ -103,8 +96,6 @@ fn build(objects: &[Object], order: &mut [usize], nodes: &mut Vec<Node>) {
     order.sort_by(|&a, &b| middle(a).total_cmp(&middle(b)));
     let (first, second) = order.split_at_mut(order.len() / 2);
     build(objects, first, nodes);
-    nodes[index].content = Content::Pair {
-        second: nodes.len(),
-    };
+    nodes[index].content = Content::Pair { second: nodes.len() };
     build(objects, second, nodes);
 }

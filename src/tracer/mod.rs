@@ -57,9 +57,7 @@ pub fn render(scene: &Scene, width: u32, height: u32, mode: Antialiasing) -> (Rg
             let mut counts = RayCounts::default();
             for (x, pixel) in row.chunks_exact_mut(3).enumerate() {
                 let color = mode.mean(|dx, dy| {
-                    let ray = scene
-                        .camera
-                        .ray(x as f64 + dx, y as f64 + dy, width, height);
+                    let ray = scene.camera.ray(x as f64 + dx, y as f64 + dy, width, height);
                     tracer.trace(&ray, &mut counts)
                 });
                 pixel.copy_from_slice(&bytes(color));
@@ -72,7 +70,5 @@ pub fn render(scene: &Scene, width: u32, height: u32, mode: Antialiasing) -> (Rg
 
 /// The thesis knows no gamma: a channel is stored as it was computed.
 fn bytes(color: Rgb) -> [u8; 3] {
-    color
-        .to_array()
-        .map(|channel| (channel.clamp(0.0, 1.0) * 255.0 + 0.5) as u8)
+    color.to_array().map(|channel| (channel.clamp(0.0, 1.0) * 255.0 + 0.5) as u8)
 }

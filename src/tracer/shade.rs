@@ -19,10 +19,7 @@ pub struct Tracer<'a> {
 
 impl<'a> Tracer<'a> {
     pub fn new(scene: &'a Scene) -> Tracer<'a> {
-        Tracer {
-            scene,
-            hierarchy: Hierarchy::new(&scene.objects),
-        }
+        Tracer { scene, hierarchy: Hierarchy::new(&scene.objects) }
     }
 
     /// The colour that comes back along a ray from the camera.
@@ -59,10 +56,7 @@ impl<'a> Tracer<'a> {
         }
         if material.reflectivity > 0.0 && depth < self.scene.max_depth {
             counts.reflected += 1;
-            let reflected = Ray {
-                origin: leaving,
-                direction: mirrored,
-            };
+            let reflected = Ray { origin: leaving, direction: mirrored };
             sum += self.radiance(&reflected, depth + 1, counts) * material.reflectivity;
         }
         sum.clamp(Rgb::ZERO, Rgb::ONE)
