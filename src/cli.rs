@@ -11,7 +11,7 @@ use lightsquare::notation::Placement;
 use lightsquare::timeline::Film;
 use lightsquare::tracer::Antialiasing;
 
-use crate::progress::Loudness;
+use crate::progress::{Loudness, ProgressMode};
 
 /// Reads chess games (PGN), replays them and ray-traces them into numbered pictures.
 #[derive(Parser)]
@@ -45,14 +45,6 @@ pub enum ColorMode {
     Auto,
     Always,
     Never,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum ProgressMode {
-    Auto,
-    Bar,
-    Plain,
-    None,
 }
 
 #[derive(Subcommand)]

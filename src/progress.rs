@@ -5,13 +5,21 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
+use clap::ValueEnum;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use lightsquare::job::Progress;
 
-use crate::cli::ProgressMode;
-
 /// Between two plain lines.
 const EVERY: Duration = Duration::from_secs(5);
+
+/// How progress is shown.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum ProgressMode {
+    Auto,
+    Bar,
+    Plain,
+    None,
+}
 
 /// How much is said beside results and errors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

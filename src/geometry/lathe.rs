@@ -112,8 +112,9 @@ fn build(segments: &[Segment], start: usize, end: usize, tree: &mut Vec<Node>) {
         segment: start,
     };
     for point in segments[start..end].iter().flat_map(|segment| [segment.from, segment.to]) {
-        node.min_u2 = node.min_u2.min((point.x - MARGIN).max(0.0).powi(2));
-        node.max_u2 = node.max_u2.max((point.x + MARGIN).powi(2));
+        let (inner, outer) = ((point.x - MARGIN).max(0.0), point.x + MARGIN);
+        node.min_u2 = node.min_u2.min(inner * inner);
+        node.max_u2 = node.max_u2.max(outer * outer);
         node.min_v = node.min_v.min(point.y - MARGIN);
         node.max_v = node.max_v.max(point.y + MARGIN);
     }
@@ -145,14 +146,14 @@ impl AxisLine {
     fn new(ray: &Ray) -> AxisLine {
         let p = DVec2::new(ray.origin.x, ray.origin.z);
         let q = DVec2::new(ray.direction.x, ray.direction.z);
-        let (pq, qq) = (p.dot(q), q.length_squared());
+        let (pq, qq, cross) = (p.dot(q), q.length_squared(), p.perp_dot(q));
         AxisLine {
             oy: ray.origin.y,
             dy: ray.direction.y,
             pp: p.length_squared(),
             pq,
             qq,
-            cross2: p.perp_dot(q).powi(2),
+            cross2: cross * cross,
             closest: if qq > 0.0 { -pq / qq } else { 0.0 },
         }
     }

@@ -93,7 +93,7 @@ fn on_the_way(from: Square, to: Square, hops: bool, passed: f64) -> Spot {
         file: mix(from.file, to.file, along),
         rank: mix(from.rank, to.rank, along),
         // A hop rises at once and stays high while it passes over other pieces.
-        height: if hops { HOP * (1.0 - (1.0 - arc).powi(2)) } else { GLIDE * arc },
+        height: if hops { HOP * arc * (2.0 - arc) } else { GLIDE * arc },
     }
 }
 
