@@ -12,6 +12,7 @@ use anstyle::{AnsiColor, Style};
 use anyhow::Context;
 use clap::Parser;
 use lightsquare::job::{self, JobError, Progress};
+use lightsquare::tracer::RayCounts;
 use signal_hook::consts::{SIGINT, SIGTERM};
 
 use cli::{Cli, ColorMode, Command};
@@ -45,15 +46,15 @@ fn run(cli: Cli) -> anyhow::Result<ExitCode> {
             let summary = job::render(&job, &terminal);
             terminal.finish();
             let summary = summary?;
-            terminal.detail(&format!(
-                "{} games whole, {} in part, {} skipped; {} frames; rays: {} primary, {} shadow, {} reflected",
+            terminal.detail(&rays(&summary.rays));
+            let stopped = if summary.cancelled { "stopped: " } else { "" };
+            terminal.warn(&format!(
+                "{stopped}{} frames in {}; games: {} whole, {} in part, {} skipped",
+                summary.frames,
+                job.out.display(),
                 summary.rendered,
                 summary.partial,
                 summary.skipped,
-                summary.frames,
-                summary.rays.primary,
-                summary.rays.shadow,
-                summary.rays.reflected,
             ));
             Ok(match signal.load(Ordering::Relaxed) {
                 0 if summary.partial + summary.skipped > 0 => ExitCode::from(INCOMPLETE),
@@ -65,11 +66,7 @@ fn run(cli: Cli) -> anyhow::Result<ExitCode> {
             let job = args.into_job()?;
             let terminal = Terminal::new(talk.progress, talk.loudness(), Arc::default());
             tell_config(&terminal, &job.picture);
-            let rays = job::diagram(&job)?;
-            terminal.detail(&format!(
-                "rays: {} primary, {} shadow, {} reflected",
-                rays.primary, rays.shadow, rays.reflected
-            ));
+            terminal.detail(&rays(&job::diagram(&job)?));
             Ok(ExitCode::SUCCESS)
         }
         Command::Inspect(args) => {
@@ -106,4 +103,9 @@ fn tell_config(terminal: &Terminal, picture: &job::PictureSettings) {
         Some(path) => format!("settings from {}", path.display()),
         None => "settings are the built-in ones".to_owned(),
     });
+}
+
+fn rays(counts: &RayCounts) -> String {
+    let RayCounts { primary, shadow, reflected } = counts;
+    format!("rays: {primary} primary, {shadow} shadow, {reflected} reflected")
 }

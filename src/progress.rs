@@ -1,12 +1,13 @@
 //! How far a job is, on stderr: a bar on a terminal, a plain line now and then elsewhere.
 
+use std::fmt;
 use std::sync::Arc;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use clap::ValueEnum;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use lightsquare::job::Progress;
 
 /// Between two plain lines.
@@ -76,10 +77,13 @@ impl Terminal {
 }
 
 fn style() -> ProgressStyle {
-    ProgressStyle::with_template(
-        "{bar:24} {pos}/{len} frames  {per_sec:.1}  {eta} left  {wide_msg}",
-    )
-    .unwrap_or_else(|_| ProgressStyle::default_bar())
+    let template = "{bar:24} {pos}/{len} frames  {rate}  {eta} left  {wide_msg}";
+    ProgressStyle::with_template(template)
+        .unwrap_or_else(|_| ProgressStyle::default_bar())
+        .with_key("rate", |state: &ProgressState, out: &mut dyn fmt::Write| {
+            // Only what cannot be shown is lost when this fails.
+            let _ = write!(out, "{:.1} a second", state.per_sec());
+        })
 }
 
 impl Progress for Terminal {

@@ -67,25 +67,18 @@ pub fn render(job: &RenderJob, progress: &dyn Progress) -> Result<Summary, JobEr
     for (input, name) in job.inputs.iter().zip(folder_names(&job.inputs)) {
         batches.push(read_batch(job, input, job.out.join(name), progress)?);
     }
-    let mut studio = Studio::new(&job.picture)?;
+    let mut run =
+        Run { job, progress, studio: Studio::new(&job.picture)?, summary: Summary::default() };
     for batch in &batches {
         prepare_folder(&batch.folder)?;
     }
     let plans = batches.iter().flat_map(|batch| &batch.games);
     progress.begin(plans.map(|(_, plan)| plan.frames() as u64).sum());
-    let mut summary = Summary::default();
     for batch in &batches {
-        let mut report = Vec::new();
-        for (game, plan) in &batch.games {
-            if summary.cancelled {
-                break;
-            }
-            report.push(render_game(job, batch, game, plan, &mut studio, progress, &mut summary)?);
-        }
-        write_json_lines(&batch.folder.join("report.jsonl"), &report)?;
+        run.batch(batch)?;
     }
-    summary.rays = studio.rays();
-    Ok(summary)
+    run.summary.rays = run.studio.rays();
+    Ok(run.summary)
 }
 
 impl Plan {
@@ -165,65 +158,88 @@ fn plan(job: &RenderJob, game: &mut Game) -> Plan {
     }
 }
 
-fn render_game(
-    job: &RenderJob,
-    batch: &Batch,
-    game: &Game,
-    plan: &Plan,
-    studio: &mut Studio,
-    progress: &dyn Progress,
-    summary: &mut Summary,
-) -> Result<ReportLine, JobError> {
-    let Plan::Show(timeline) = plan else {
-        summary.skipped += 1;
-        return Ok(ReportLine::new(game, Status::Skipped, 0, None));
-    };
-    let name = game_folder(game);
-    let folder = batch.folder.join(&name);
-    prepare_folder(&folder)?;
-    let players = [Color::White, Color::Black].map(|color| game.player(color));
-    progress.game(&players.join(" – "));
-    let mut rows = Vec::with_capacity(timeline.frames());
-    let mut shown_last = None;
-    for index in 0..timeline.frames() {
-        if progress.is_cancelled() {
-            summary.cancelled = true;
-            break;
+/// A job under way.
+struct Run<'a> {
+    job: &'a RenderJob,
+    progress: &'a dyn Progress,
+    studio: Studio<'a>,
+    summary: Summary,
+}
+
+impl Run<'_> {
+    fn batch(&mut self, batch: &Batch) -> Result<(), JobError> {
+        let mut report = Vec::new();
+        for (game, plan) in &batch.games {
+            if self.summary.cancelled {
+                break;
+            }
+            let (status, frames, folder) = match plan {
+                Plan::Skip => (Status::Skipped, 0, None),
+                Plan::Show(timeline) => {
+                    let name = game_folder(game);
+                    let frames = self.game(batch, &batch.folder.join(&name), game, timeline)?;
+                    let whole = game.is_whole() && !self.summary.cancelled;
+                    let status = if whole { Status::Rendered } else { Status::Partial };
+                    (status, frames, Some(name))
+                }
+            };
+            match status {
+                Status::Rendered => self.summary.rendered += 1,
+                Status::Partial => self.summary.partial += 1,
+                Status::Skipped => self.summary.skipped += 1,
+            }
+            report.push(ReportLine::new(game, status, frames, folder));
         }
-        let frame = timeline.frame(index);
-        let row = FrameRow::new(format!("frame_{index:05}.png"), game, &frame);
-        // A pause is one picture many times over.
-        let picture = match shown_last.take() {
-            Some((last, picture)) if frame.shows_the_same(&last) => picture,
-            _ => studio.picture(&frame),
+        Ok(write_json_lines(&batch.folder.join("report.jsonl"), &report)?)
+    }
+
+    /// Renders the frames of a game and writes its manifest; gives the number of pictures.
+    fn game(
+        &mut self,
+        batch: &Batch,
+        folder: &Path,
+        game: &Game,
+        timeline: &Timeline,
+    ) -> Result<usize, JobError> {
+        prepare_folder(folder)?;
+        let players = [Color::White, Color::Black].map(|color| game.player(color));
+        self.progress.game(&players.join(" – "));
+        let mut rows = Vec::with_capacity(timeline.frames());
+        let mut shown_last = None;
+        for index in 0..timeline.frames() {
+            if self.progress.is_cancelled() {
+                self.summary.cancelled = true;
+                break;
+            }
+            let frame = timeline.frame(index);
+            let row = FrameRow::new(format!("frame_{index:05}.png"), game, &frame);
+            // A pause is one picture many times over.
+            let picture = match shown_last.take() {
+                Some((last, picture)) if frame.shows_the_same(&last) => picture,
+                _ => self.studio.picture(&frame),
+            };
+            write_png(&folder.join(&row.file), &picture, &row.texts(game))?;
+            rows.push(row);
+            self.progress.frame_done();
+            self.summary.frames += 1;
+            shown_last = Some((frame, picture));
+        }
+        let frames = rows.len();
+        let manifest = Manifest {
+            file: batch.file.clone(),
+            game: game.number,
+            line: game.line,
+            tags: tags(game),
+            result: &game.result,
+            problems: problems(&game.problems),
+            settings: &self.studio.record(),
+            film: self.job.film,
+            orbit: self.job.orbit,
+            frames: rows,
         };
-        write_png(&folder.join(&row.file), &picture, &row.texts(game))?;
-        rows.push(row);
-        progress.frame_done();
-        summary.frames += 1;
-        shown_last = Some((frame, picture));
+        write_json(&folder.join("game.json"), &manifest)?;
+        Ok(frames)
     }
-    let frames = rows.len();
-    let manifest = Manifest {
-        file: batch.file.clone(),
-        game: game.number,
-        line: game.line,
-        tags: tags(game),
-        result: &game.result,
-        problems: problems(&game.problems),
-        settings: &studio.record(),
-        film: job.film,
-        orbit: job.orbit,
-        frames: rows,
-    };
-    write_json(&folder.join("game.json"), &manifest)?;
-    let whole = game.is_whole() && !summary.cancelled;
-    let status = if whole { Status::Rendered } else { Status::Partial };
-    match status {
-        Status::Rendered => summary.rendered += 1,
-        _ => summary.partial += 1,
-    }
-    Ok(ReportLine::new(game, status, frames, Some(name)))
 }
 
 /// `0001-morphy-paul-duke-karl`: the number, and the players as far as they are known.
