@@ -232,7 +232,11 @@ fn bad_input_gets_a_sentence_and_leaves_nothing_behind() {
         (&["render", "empty.pgn"], 1, "empty.pgn: is empty, expected games in PGN"),
         (&["render", "rubbish.pgn"], 1, "rubbish.pgn: is no text (byte 4 is 0)"),
         (&["render", "wide.pgn"], 1, "wide.pgn: is UTF-16 text, expected UTF-8 or Latin-1"),
-        (&["render", "prose.pgn"], 1, "prose.pgn: no game in it, line 1: `Dear` is no move"),
+        (
+            &["render", "prose.pgn"],
+            1,
+            "prose.pgn: no game in it, line 1: `Dear` begins a text that is no game",
+        ),
         (&["render", "game.pgn", "no.pgn"], 1, "no.pgn: no such file"),
         (
             &["render", "game.pgn", "--select", "2"],

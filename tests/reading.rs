@@ -7,7 +7,7 @@ fn read(text: &str) -> Vec<Game> {
 }
 
 fn read_bytes(bytes: &[u8]) -> Vec<Game> {
-    Scanner::new(bytes).map(|scanned| Game::read(scanned.unwrap())).collect()
+    Scanner::new(bytes).map(|scanned| Game::read(scanned.unwrap(), 1)).collect()
 }
 
 /// A game in one line: its moves, its result, and its problems.
@@ -76,7 +76,7 @@ fn what_cannot_be_read_is_told_with_its_line_and_token() {
         ("1. e4 Z0 2. d4 *", &["e4 * | line 1: `Z0` is a null move, which no position can show"]),
         ("1. e4 {a\nb", &["e4 * | line 1: `{` opens a comment that is never closed"]),
         ("1. e4 (1. d4\n2. c4 *", &["e4 * | line 1: `(` opens a variation that is never closed"]),
-        ("1. e4 ) 1... e5 *", &["e4 * | line 1: `)` is no move"]),
+        ("1. e4 ) 1... e5 *", &["e4 * | line 1: `)` closes nothing"]),
         // Lost moves before, so the position is not known.
         (
             "1-0\n2. Nf3 Nc6 *",
@@ -92,11 +92,120 @@ fn what_cannot_be_read_is_told_with_its_line_and_token() {
     }
 }
 
+/// Whatever may hide a move ends the game there: no position is shown that it may not have had.
+#[test]
+fn a_game_stops_where_a_move_may_be_missing() {
+    let cases = [
+        // Numbers that do not fit.
+        ("1. e4 e5 3. Bc4 Nf6 *", "e4 e5"),
+        ("1. e4 e5 2. Nf3 3. Nc3 *", "e4 e5 Nf3"),
+        ("1. d4 2. d5 *", "d4"),
+        ("1. d4 12 2. d5 *", "d4"),
+        ("1. d4 (null) 2. d5 *", "d4"),
+        ("1. e4 e5 2... Nf3 *", "e4 e5"),
+        ("1. e4 e5 2. Nf3 Nc6 3. Bc4 Bc5 4. 0 - 0 Nd4 *", "e4 e5 Nf3 Nc6 Bc4 Bc5"),
+        // A move that is not there, or said not to be made.
+        ("1. d4 ... 2. d5 *", "d4"),
+        ("1. d4 — d5 *", "d4"),
+        ("1. d4 - d5 *", "d4"),
+        ("1. d4 _ d5 *", "d4"),
+        ("1. d4 0000 2. d5 *", "d4"),
+        ("1. d4 @@@@ 2. d5 *", "d4"),
+        ("1. d4 –– 2. d5 *", "d4"),
+        // A piece that is torn from its square.
+        ("1. e4 e5 2. N f3 d6 *", "e4 e5"),
+        ("1. e4 e5 2. Nf3 N c6 *", "e4 e5 Nf3"),
+        ("1. e4 e5 2. Nf3 N{x}c6 *", "e4 e5 Nf3"),
+        ("1. e4 e5 2. B c4 *", "e4 e5"),
+        ("1. e4 e5 2. ♘ f3 *", "e4 e5"),
+        ("1. e4 e5 2. К f3 *", "e4 e5"),
+        ("1. e4 e5 2. \u{fffd} f3 *", "e4 e5"),
+        ("1. e4 e5 2. -f3 *", "e4 e5"),
+        ("1. e4 e5 2. ]f3 *", "e4 e5"),
+        ("1. e4 e5 2. Q]h3 *", "e4 e5"),
+        ("1. e4 e5 2. N$g6 *", "e4 e5"),
+        ("1. e4 e 2. e5 d6 *", "e4"),
+        // A part of a move.
+        ("1. e4 d5 2. xd5 *", "e4 d5"),
+        ("1. aa3 *", ""),
+        ("1. e4 e5 2. B1c3 *", "e4 e5"),
+        // Brackets that may hold moves.
+        ("1. e4 e5 [2. Nf3 Nc6\n3. Bc4 Nf6 *", "e4 e5"),
+        ("1. e4 e5\n[2. Nf3 Nc6\n3. Bc4 Nf6 *", "e4 e5"),
+        ("1. e4 e5 [2. Nf3 Nc6] 3. Bc4 Nf6 *", "e4 e5"),
+        ("1. e4 e5 <2. Nf3 Nc6\n3. Bc4 Nf6 *", "e4 e5"),
+        ("1. e4 e5 <2. Nf3 Nc6> Bc4 Nf6 *", "e4 e5"),
+        ("1. e4 \u{1b}[2J e5 *", "e4"),
+        // Braces and brackets that do not close, or close nothing.
+        ("1. e4 {best 1... e5 2. Nf3 {good} Nc6 2. d4 *", "e4"),
+        ("1. e4 {a {b} e5} *", "e4"),
+        ("1. e4 } 1... e5 *", "e4"),
+        ("(1. d4) 1. e4 *", ""),
+        ("(FEN \"4k3/8/8/8/8/8/4P3/4K3 w - - 0 1\") 1. e4 *", ""),
+        ("1. e4 e5 2. N?f3 d6 *", "e4 e5"),
+    ];
+    for (text, moves) in cases {
+        let game = &read(text)[0];
+        let shown: Vec<&str> = game.plies.iter().map(|ply| ply.san.as_str()).collect();
+        assert_eq!(shown.join(" "), moves, "{text:?}: {:?}", game.problems);
+        assert!(!game.is_whole(), "{text:?}");
+    }
+}
+
+#[test]
+fn harmless_things_stop_nothing() {
+    let cases = [
+        "1. e4 [%clk 0:01:00] e5 2. Nf3 *",
+        "1. e4\n[%eval 0.3]\ne5 2. Nf3 *",
+        "1. e4 [#] e5 2. Nf3 *",
+        "1. e4 1... e5 2. Nf3 *",
+        "1. e4 ... e5 2. Nf3 *",
+        "1 e4 e5 2 Nf3 *",
+        "1 . e4 e5 2 . Nf3 *",
+        "1. e4 e5 2. Nf3 N *",
+        "1. e4 D e5 2. Nf3 *",
+        "1.\u{a0}e4 e5\u{a0}2.\u{a0}Nf3 *",
+        "1. e4 e5 2. Nf3*",
+    ];
+    for text in cases {
+        let game = &read(text)[0];
+        let moves: Vec<&str> = game.plies.iter().map(|ply| ply.san.as_str()).collect();
+        let torn = text.contains("D e5");
+        assert_eq!(moves.join(" "), if torn { "e4" } else { "e4 e5 Nf3" }, "{text:?}");
+        assert_eq!(game.is_whole(), !torn, "{text:?}: {:?}", game.problems);
+    }
+}
+
+#[test]
+fn moves_that_are_numbered_from_one_again_are_another_game() {
+    assert_told("1. e4 e5\n\n1. Nf3 Nc6\n", &["e4 e5 *", "Nf3 Nc6 *"]);
+    assert_told("[Event \"a\"]\n\n1. e4 e5\n\n1. d4 d5 *", &["e4 e5 *", "d4 d5 *"]);
+    assert_told(
+        "12. Nf3 Nc6 *",
+        &[" * | line 1: `Nf3` goes on with a game whose beginning is not known"],
+    );
+    let fen = "[FEN \"rnbqkbnr/pppppppp/8/8/8/8/PPPPPPPP/RNBQKBNR w KQkq - 0 1\"]\n\n";
+    assert_told(&format!("{fen}23. e4 e5 24. Nf3 *"), &["e4 e5 Nf3 *"]);
+    assert_told(
+        &format!("{fen}23. e4 e5 25. Nf3 *"),
+        &["e4 e5 * | line 3: `Nf3` is numbered 25, expected 24"],
+    );
+}
+
 #[test]
 fn an_unclosed_comment_does_not_swallow_the_next_game() {
     assert_told(
         "[Event \"a\"]\n\n1. e4 {never\nclosed *\n\n[Event \"b\"]\n\n1. d4 *\n",
         &["e4 * | line 3: `{` opens a comment that is never closed", "d4 *"],
+    );
+    assert_told(
+        "[White \"a\"]\n\n1. e4 {never\n[White \"b\"]\n\n1. d4 d5 *\n",
+        &["e4 * | line 3: `{` opens a comment that is never closed", "d4 d5 *"],
+    );
+    // Before the first game, too.
+    assert_told(
+        "{ never\n\n[Event \"a\"]\n\n1. e4 *\n\n[Event \"b\"]\n\n1. d4 *\n",
+        &["e4 * | line 1: `{` opens a comment that is never closed", "d4 *"],
     );
 }
 
@@ -139,6 +248,8 @@ fn no_position_is_shown_where_the_start_is_not_known() {
         "[FEN \"8/8/8/8/8/8/8/8 w\" - -]\n\n1. e4 *",
         "[FEN \"rubbish\"]\n\n1. e4 *",
         "[SetUp \"1\"]\n\n1. e4 *",
+        "[FEN: \"4k3/8/8/8/8/8/4P3/4K3 w - - 0 1\"]\n\n1. e4 *",
+        "[FEN=\"4k3/8/8/8/8/8/4P3/4K3 w - - 0 1\"]\n\n1. e4 *",
         "[Variant \"Chess960\"]\n\n1. e4 *",
         "[Variant \"Horde\"]\n\n1. e4 *",
     ];
@@ -154,6 +265,9 @@ fn no_position_is_shown_where_the_start_is_not_known() {
 fn tags_are_read_as_they_are_written() {
     let cases = [
         ("[Event \"a ] b\"]", ("Event", "a ] b")),
+        ("[Event \"C:\\temp\"]", ("Event", "C:\\temp")),
+        ("[Event \"two\nlines\"]", ("Event", "two lines")),
+        ("[Event \"x\\\\\"] ", ("Event", "x\\")),
         ("[Event  \"say \\\"hi\\\" \\\\ \" ]", ("Event", "say \"hi\" \\ ")),
         ("  [ Event \"x\"]", ("Event", "x")),
         ("[Event\"x\"]", ("Event", "x")),

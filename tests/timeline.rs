@@ -6,7 +6,7 @@ use lightsquare::timeline::{Film, Frame, Mover, Timeline};
 
 fn game(text: &str) -> Game {
     let scanned = Scanner::new(text.as_bytes()).next().unwrap().unwrap();
-    let game = Game::read(scanned);
+    let game = Game::read(scanned, 1);
     assert_eq!(game.problems, [], "{text}");
     game
 }

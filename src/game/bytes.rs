@@ -56,10 +56,10 @@ impl<R: BufRead> Bytes<R> {
         self.until(|byte| byte == b'\n' || byte == b'\r')
     }
 
-    /// A word: up to a blank or one of `{}()[]<;`, or up to a `$` within.
+    /// A word: up to a blank or one of `{}()[]<;*`, or up to a `$` within.
     pub fn word(&mut self) -> io::Result<Vec<u8>> {
         let mut word =
-            self.until(|byte| byte.is_ascii_whitespace() || b"{}()[]<;$".contains(&byte))?;
+            self.until(|byte| byte.is_ascii_whitespace() || b"{}()[]<;*$".contains(&byte))?;
         if word.is_empty() {
             word.extend(self.bump()?);
             if word == b"$" {
@@ -70,21 +70,31 @@ impl<R: BufRead> Bytes<R> {
     }
 
     /// From a `[` to the `]` that closes it (one in quotes does not), or to the end of the line.
+    /// Quotes that are open there go on in the next line, unless that is blank or a tag.
     pub fn bracket(&mut self) -> io::Result<String> {
         let mut raw = Vec::new();
         let mut quoted = false;
+        let mut escaped = false;
         while let Some(byte) = self.peek()? {
             if byte == b'\n' || byte == b'\r' {
-                break;
+                if !quoted {
+                    break;
+                }
+                self.bump()?;
+                if self.peek()?.is_none_or(|next| b"[\r\n".contains(&next)) {
+                    break;
+                }
+                raw.push(b' ');
+                continue;
             }
             self.bump()?;
-            let escaped = raw.last() == Some(&b'\\');
             raw.push(byte);
             match byte {
                 b'"' if !escaped => quoted = !quoted,
                 b']' if !quoted => break,
                 _ => {}
             }
+            escaped = byte == b'\\' && !escaped;
         }
         Ok(decoded(raw.trim_ascii_end()))
     }

@@ -17,6 +17,7 @@ mod word;
 pub use scan::{ScannedGame, Scanner};
 pub use select::{Moment, ParseMomentError, ParseSelectionError, Selection};
 pub use source::{Source, SourceError};
+pub use word::{printable, shortened};
 
 use shakmaty::fen::Fen;
 use shakmaty::{Chess, Color, EnPassantMode, Move, Position, Setup};
@@ -32,6 +33,8 @@ pub struct Game {
     pub line: usize,
     /// Name and value, in the order of the file.
     pub tags: Vec<(String, String)>,
+    /// Tags that could not be read, as they stand in the file.
+    pub unread_tags: Vec<String>,
     /// Whether it is known where the game starts; if not, no position of it can be shown, and
     /// `start` is empty.
     pub start_is_known: bool,
@@ -53,7 +56,7 @@ pub struct Ply {
 }
 
 /// Something in the text that could not be used.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, thiserror::Error)]
 #[error("line {line}: `{token}` {what}")]
 pub struct Problem {
     pub line: usize,
@@ -68,20 +71,33 @@ pub struct Problem {
 impl Problem {
     /// A problem with a token that is made fit for print: no control characters, not too long.
     fn new(line: usize, token: &str, what: &str, loses_moves: bool) -> Problem {
-        const LONGEST: usize = 80;
-        let mut token = word::printable(token);
-        if let Some((end, _)) = token.char_indices().nth(LONGEST) {
-            token.truncate(end);
-            token.push('…');
-        }
+        let token = word::shortened(&word::printable(token), 80);
         Problem { line, token, what: what.to_owned(), loses_moves }
     }
 }
 
 impl Game {
-    /// Reads and replays a game that the scanner has cut out.
-    pub fn read(scanned: ScannedGame) -> Game {
-        replay::replay(scanned)
+    /// Reads and replays a game that the scanner has cut out, number `number` of its file.
+    pub fn read(scanned: ScannedGame, number: usize) -> Game {
+        replay::replay(scanned, number)
+    }
+
+    /// A stretch of text that is no game.
+    fn nothing(number: usize, line: usize, problems: Vec<Problem>) -> Game {
+        Game {
+            number,
+            line,
+            tags: Vec::new(),
+            unread_tags: Vec::new(),
+            start_is_known: false,
+            start: Setup::empty(),
+            plies: Vec::new(),
+            result: "*".to_owned(),
+            problems: problems
+                .into_iter()
+                .map(|problem| Problem { loses_moves: true, ..problem })
+                .collect(),
+        }
     }
 
     /// Whether every move of the text was understood and played.

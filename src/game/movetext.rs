@@ -8,10 +8,12 @@
 use std::ops::ControlFlow;
 
 use pgn_reader::{Reader, SanPlus, Visitor};
+use shakmaty::Role;
 use shakmaty::san::San;
 use shakmaty::uci::UciMove;
 
 use super::scan::Token;
+use super::word::{ascii_dashes, is_null};
 
 /// What a token may mean.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -23,8 +25,16 @@ pub struct Written {
     pub passes: bool,
 }
 
-/// The meanings of all tokens, up to the one where pgn-reader saw another game.
-pub fn read(tokens: &[Token], movetext: &[u8]) -> Vec<Written> {
+/// The meanings of tokens.
+pub struct Reading {
+    /// One a token, up to the last that is certain.
+    pub written: Vec<Written>,
+    /// Whether pgn-reader saw no move of which the scanner knows nothing.
+    pub is_certain: bool,
+}
+
+/// Reads all tokens, and holds them against what pgn-reader reads in the whole movetext.
+pub fn read(tokens: &[Token], movetext: &[u8]) -> Reading {
     let mut written: Vec<Written> = tokens.iter().map(|token| tolerant(&token.text)).collect();
     let mut reached = 0;
     for san in main_line(movetext) {
@@ -33,11 +43,11 @@ pub fn read(tokens: &[Token], movetext: &[u8]) -> Vec<Written> {
             Some(skipped) => reached += skipped + 1,
             None => {
                 written.truncate(reached);
-                break;
+                return Reading { written, is_certain: false };
             }
         }
     }
-    written
+    Reading { written, is_certain: true }
 }
 
 /// The moves of the main line, as pgn-reader sees them.
@@ -73,26 +83,39 @@ impl Visitor for MainLine {
 
 /// Reads a token in the ways that files really write moves.
 fn tolerant(token: &str) -> Written {
-    if let Ok(san) = SanPlus::from_ascii(token.as_bytes()) {
-        return Written { san: Some(san.san), uci: uci(token), passes: san.san == San::Null };
-    }
     let plain = plain(token);
+    let san = SanPlus::from_ascii(plain.as_bytes()).ok().map(|san| san.san);
     Written {
-        san: SanPlus::from_ascii(plain.as_bytes()).ok().map(|san| san.san),
+        san: san.filter(|san| is_complete(san, &plain)),
         uci: uci(&plain),
-        passes: token == "Z0",
+        passes: is_null(token),
     }
 }
 
+/// Whether a token is written as a move, legal or not.
+pub fn is_move(token: &str) -> bool {
+    let written = tolerant(token);
+    written.san.is_some() || written.uci.is_some()
+}
+
+/// Whether a move has not visibly lost a part: a capture names who captures, and a pawn's file is
+/// named only where it leaves it.
+fn is_complete(san: &San, text: &str) -> bool {
+    let San::Normal { role: Role::Pawn, file, rank, to, .. } = san else {
+        return true;
+    };
+    !text.starts_with('x') && (rank.is_some() || *file != Some(to.file()))
+}
+
 fn uci(text: &str) -> Option<UciMove> {
-    let lower = text.trim_end_matches(['+', '#']).to_ascii_lowercase();
-    UciMove::from_ascii(lower.as_bytes()).ok().filter(|m| matches!(m, UciMove::Normal { .. }))
+    let text = text.trim_end_matches(['+', '#']);
+    UciMove::from_ascii(text.as_bytes()).ok().filter(|m| matches!(m, UciMove::Normal { .. }))
 }
 
 /// The token as the standard writes it: castling with capital Os, no hyphen between squares, `=`
 /// before what a pawn becomes, no `e.p.`, one sign of check.
 fn plain(token: &str) -> String {
-    let token = token.replace(['–', '—', '−', '‐', '‑'], "-");
+    let token = ascii_dashes(token);
     let body = token.trim_end_matches(['+', '#']);
     let check = if token.contains('#') {
         "#"
@@ -107,8 +130,14 @@ fn plain(token: &str) -> String {
     if matches!(castling.as_str(), "O-O" | "O-O-O") {
         return castling + check;
     }
-    let mut squares: String =
-        body.chars().filter(|c| *c != '-').map(|c| if c == ':' { 'x' } else { c }).collect();
+    let mut squares = body.replace(':', "x");
+    // `e2-e4`, `Ng1-f3`: the hyphen stands between two squares.
+    if let Some((from, to)) = squares.split_once('-')
+        && from.ends_with(|c: char| ('1'..='8').contains(&c))
+        && to.starts_with(|c: char| ('a'..='h').contains(&c))
+    {
+        squares = format!("{from}{to}");
+    }
     let promoted = squares.len().checked_sub(1).filter(|&last| {
         squares.is_char_boundary(last)
             && squares[last..].starts_with(['Q', 'R', 'B', 'N'])
@@ -159,9 +188,24 @@ mod tests {
     }
 
     #[test]
-    fn a_move_that_only_pgn_reader_sees_ends_the_game() {
-        let tokens = ["e4", "e5"].map(|text| Token { line: 1, text: text.to_owned() });
-        assert_eq!(read(&tokens, b"e4 e5").len(), 2);
-        assert_eq!(read(&tokens, b"e4 d5 e5").len(), 1);
+    fn what_has_lost_a_part_is_no_move() {
+        for token in ["xd5", "aa3", "-f3", "—f3", "B1C3", "Nf", "e9", "=Q"] {
+            assert_eq!(tolerant(token).san, None, "{token}");
+            assert_eq!(tolerant(token).uci, None, "{token}");
+        }
+        // A bishop on the first rank, never the squares b1 and c3.
+        assert_eq!(tolerant("B1c3").uci, None);
+    }
+
+    #[test]
+    fn a_move_that_only_pgn_reader_sees_ends_the_certainty() {
+        let tokens =
+            ["e4", "e5"].map(|text| Token { line: 1, text: text.to_owned(), ..Token::default() });
+        for (movetext, certain, read_tokens) in
+            [("e4 e5", true, 2), ("e4 d5 e5", false, 1), ("e4 e5 d5", false, 2)]
+        {
+            let reading = read(&tokens, movetext.as_bytes());
+            assert_eq!((reading.is_certain, reading.written.len()), (certain, read_tokens));
+        }
     }
 }

@@ -1,20 +1,21 @@
 //! Plays the moves of a scanned game, as far as they can be played.
 
 use shakmaty::san::{SanError, SanPlus};
-use shakmaty::{Chess, Move, Setup};
+use shakmaty::{Chess, Color, Move, Position, Setup};
 
-use super::movetext::{self, Written};
+use super::movetext::{self, Reading, Written};
 use super::scan::Token;
 use super::{Game, Ply, Problem, ScannedGame, start, tag};
 
-/// Replays `scanned` (the game's number is set by the caller).
-pub fn replay(scanned: ScannedGame) -> Game {
+/// Replays `scanned`, the game of that number in its file.
+pub fn replay(scanned: ScannedGame, number: usize) -> Game {
     let mut problems = scanned.problems;
     let mut plies = Vec::new();
-    let numbered_on = scanned.tags.is_empty() && scanned.first_number.is_some_and(|n| n != 1);
-    let start = match (start::setup(&scanned.tags), scanned.tokens.first()) {
+    let from_fen = tag(&scanned.tags, "FEN").is_some();
+    let first = scanned.tokens.first();
+    let start = match (start::setup(&scanned.tags), first) {
         _ if scanned.start_is_lost => None,
-        (Ok(_), Some(first)) if numbered_on => {
+        (Ok(_), Some(first)) if !from_fen && first.number.is_some_and(|number| number != 1) => {
             let what = "goes on with a game whose beginning is not known";
             problems.push(Problem::new(first.line, &first.text, what, true));
             None
@@ -32,21 +33,19 @@ pub fn replay(scanned: ScannedGame) -> Game {
                 problems.push(Problem::new(first.line, &first.text, &what, true));
             }
             (_, Ok(position)) => {
-                let written = movetext::read(&scanned.tokens, &scanned.movetext);
-                problems.extend(play(position, &scanned.tokens, &written, &mut plies));
+                let reading = movetext::read(&scanned.tokens, &scanned.movetext);
+                problems.extend(play(position, &scanned.tokens, &reading, &mut plies));
             }
             (None, Err(_)) => {}
         }
     }
     problems.sort_by_key(|problem| problem.line);
-    let result = scanned
-        .result
-        .or_else(|| tag(&scanned.tags, "Result").map(str::to_owned))
-        .unwrap_or_else(|| "*".to_owned());
+    let result = scanned.result.or_else(|| tag(&scanned.tags, "Result")).unwrap_or("*").to_owned();
     Game {
-        number: 0,
+        number,
         line: scanned.line,
         tags: scanned.tags,
+        unread_tags: scanned.unread_tags,
         start_is_known: start.is_some(),
         start: start.unwrap_or_else(Setup::empty),
         plies,
@@ -59,13 +58,28 @@ pub fn replay(scanned: ScannedGame) -> Game {
 fn play(
     mut position: Chess,
     tokens: &[Token],
-    written: &[Written],
+    reading: &Reading,
     plies: &mut Vec<Ply>,
 ) -> Option<Problem> {
+    // A FEN may count its moves otherwise than the text does; the first number tells.
+    let mut shift = None;
     for (index, token) in tokens.iter().enumerate() {
         let stop = |what: &str| Some(Problem::new(token.line, &token.text, what, true));
-        let Some(written) = written.get(index) else {
-            return stop("is followed by a move that is not certain");
+        if let Some(fault) = token.fault {
+            return stop(fault);
+        }
+        if let Some(found) = token.number.map(i64::from) {
+            let counted = i64::from(position.fullmoves().get());
+            let number = counted + *shift.get_or_insert(found - counted);
+            if found != number {
+                return stop(&format!("is numbered {found}, expected {number}"));
+            }
+        }
+        if token.is_blacks && position.turn() == Color::White {
+            return stop("is marked as a move of Black, but White is to move");
+        }
+        let Some(written) = reading.written.get(index) else {
+            return stop("cannot be read for certain");
         };
         let played = match legal(&position, written) {
             Ok(played) => played,
@@ -74,7 +88,9 @@ fn play(
         let san = SanPlus::from_move_and_play_unchecked(&mut position, played);
         plies.push(Ply { san: san.to_string(), played, after: position.clone() });
     }
-    None
+    let last = tokens.last().filter(|_| !reading.is_certain)?;
+    let what = "is followed by something that may be a move";
+    Some(Problem::new(last.line, &last.text, what, true))
 }
 
 /// The legal move that is meant, or a clause that says what is wrong.

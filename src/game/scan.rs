@@ -2,13 +2,16 @@
 //!
 //! pgn-reader drops what it cannot read and knows no lines; a blank line, an odd tag or an open
 //! brace makes it lose moves or whole games. So games are cut here: a game ends where a tag
-//! section begins, or where moves go on after a result. Blank lines and odd tags end nothing.
+//! section begins, where moves go on after a result, or where they are numbered from 1 again.
+//! Blank lines and odd tags end nothing. What may hide a move becomes a token with a fault, at
+//! which the replay stops.
 
 use std::io::{self, BufRead};
+use std::mem;
 
-use super::Problem;
 use super::bytes::Bytes;
-use super::word::{Word, classify, decoded, parse_tag, split_number};
+use super::word::{Word, classify, decoded, is_harmless, parse_tag};
+use super::{Problem, movetext};
 
 /// One game as it stands in the text.
 #[derive(Debug, Default)]
@@ -17,27 +20,49 @@ pub struct ScannedGame {
     pub line: usize,
     /// Name and value of the tags that could be read, in order.
     pub tags: Vec<(String, String)>,
+    /// Tags that could not be read, as they stand.
+    pub unread_tags: Vec<String>,
     /// Whether a tag that says where the game starts could not be read.
     pub start_is_lost: bool,
     /// What may be moves of the main line, without move numbers and glyphs.
     pub tokens: Vec<Token>,
-    /// The first move number, where there is one.
-    pub first_number: Option<u32>,
     /// The whole movetext, comments and variations too, on one line: what pgn-reader is given.
     pub movetext: Vec<u8>,
-    pub result: Option<String>,
+    pub result: Option<&'static str>,
     pub problems: Vec<Problem>,
     /// Lines of the variations that are open, from the outermost.
     open_variations: Vec<usize>,
     /// Whether a blank line or a comment came after the last tag.
     gap: bool,
+    /// What stands before the next token.
+    before: Before,
 }
 
-/// A word of the movetext.
-#[derive(Debug, PartialEq, Eq)]
+/// A word of the movetext that may be a move, or that hides one.
+#[derive(Debug, Default, PartialEq, Eq)]
 pub struct Token {
     pub line: usize,
     pub text: String,
+    /// The move number directly before it.
+    pub number: Option<u32>,
+    /// Whether dots before it say that it is Black's.
+    pub is_blacks: bool,
+    /// Why the game cannot go on here, as a clause after the text.
+    pub fault: Option<&'static str>,
+}
+
+impl Token {
+    /// Whether it is written as a move.
+    fn is_move(&self) -> bool {
+        self.fault.is_none() && movetext::is_move(&self.text)
+    }
+}
+
+#[derive(Debug, Default)]
+struct Before {
+    number: Option<u32>,
+    dots: bool,
+    letter: bool,
 }
 
 /// Gives the games of a stream one after the other.
@@ -49,6 +74,17 @@ pub struct Scanner<R> {
     stray_tags: Vec<(usize, String)>,
 }
 
+/// Whether a piece of text begins the next game, which then stands in `Scanner::begun`.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Next {
+    SameGame,
+    NewGame,
+}
+
+/// Tags that begin a section; one of them within a comment shows that a brace was forgotten.
+const FIRST_TAGS: [&str; 10] =
+    ["Event", "Site", "Date", "Round", "White", "Black", "Result", "FEN", "SetUp", "Variant"];
+
 impl<R: BufRead> Scanner<R> {
     /// Scans `reader` from its beginning, which is line 1.
     pub fn new(reader: R) -> Scanner<R> {
@@ -59,10 +95,11 @@ impl<R: BufRead> Scanner<R> {
         let mut game = self.begun.take();
         let mut blank = false;
         while let Some(byte) = self.bytes.peek()? {
-            let finished = match byte {
+            let was_blank = mem::take(&mut blank);
+            let next = match byte {
                 b'\n' | b'\r' => {
                     self.bytes.bump()?;
-                    if let (true, Some(game)) = (blank, &mut game) {
+                    if let (true, Some(game)) = (was_blank, &mut game) {
                         game.gap = true;
                     }
                     blank = true;
@@ -70,6 +107,7 @@ impl<R: BufRead> Scanner<R> {
                 }
                 byte if byte.is_ascii_whitespace() => {
                     self.bytes.bump()?;
+                    blank = was_blank;
                     continue;
                 }
                 b'%' if self.bytes.at_line_start => {
@@ -81,96 +119,111 @@ impl<R: BufRead> Scanner<R> {
                 b';' => {
                     let text = self.bytes.rest_of_line()?;
                     self.comment_text(&mut game, &text[1..]);
-                    false
+                    continue;
                 }
-                b'(' | b')' => {
-                    self.variation(&mut game)?;
-                    false
-                }
-                b'<' => {
-                    self.angle(&mut game)?;
-                    false
-                }
+                b'(' | b')' => self.variation(&mut game)?,
+                b'<' => self.angle(&mut game)?,
                 _ => self.word(&mut game)?,
             };
-            blank = false;
-            if finished {
-                return Ok(game.map(ScannedGame::closed));
+            if next == Next::NewGame {
+                match game {
+                    Some(game) => return Ok(Some(game.closed())),
+                    None => game = self.begun.take(),
+                }
             }
         }
         if let Some(game) = &mut game {
-            game.take_unreadable(&mut self.stray_tags);
+            game.take_stray(&mut self.stray_tags);
         }
         Ok(game.map(ScannedGame::closed))
     }
 
-    /// Reads what a `[` opens; true when it begins the next game.
-    fn bracket(&mut self, game: &mut Option<ScannedGame>) -> io::Result<bool> {
+    /// Reads what a `[` opens.
+    fn bracket(&mut self, game: &mut Option<ScannedGame>) -> io::Result<Next> {
         let line = self.bytes.line;
         let in_place = self.bytes.at_line_start
-            || game.as_ref().is_none_or(|game| !game.has_moves() || game.result.is_some());
+            || game.as_ref().is_none_or(|game| !game.has_moves() || game.has_ended());
         let raw = self.bytes.bracket()?;
-        if !in_place {
-            if let Some(game) = game {
-                game.report(line, &raw, "is no move", false);
+        match parse_tag(&raw) {
+            Some((name, value)) if in_place => return Ok(self.tag(game, line, name, value)),
+            None if in_place && !is_harmless(&raw) => {
+                // After moves it is not yet clear whether the next game begins here.
+                self.stray_tags.push((line, raw));
+                let game = game.get_or_insert_with(|| ScannedGame::at(line));
+                if !game.has_moves() && !game.has_ended() {
+                    game.take_stray(&mut self.stray_tags);
+                }
             }
-            return Ok(false);
+            _ => self.current(game, line).bracketed(line, &raw),
         }
-        let Some((name, value)) = parse_tag(&raw) else {
-            // After moves it is not yet clear whether the next game begins here.
-            self.stray_tags.push((line, raw));
-            let game = game.get_or_insert_with(|| ScannedGame::at(line));
-            if !game.has_moves() && !game.has_ended() {
-                game.take_unreadable(&mut self.stray_tags);
-            }
-            return Ok(false);
-        };
-        if let Some(current) = game {
-            let again = current.gap && super::tag(&current.tags, &name).is_some();
-            if current.has_moves() || current.has_ended() || again {
-                self.begun = Some(self.first_tag(line, name, value));
-                return Ok(true);
-            }
-            current.tag(line, name, value);
-        } else {
+        Ok(Next::SameGame)
+    }
+
+    fn tag(
+        &mut self,
+        game: &mut Option<ScannedGame>,
+        line: usize,
+        name: String,
+        value: String,
+    ) -> Next {
+        let Some(current) = game else {
             *game = Some(self.first_tag(line, name, value));
+            return Next::SameGame;
+        };
+        let again = current.gap && super::tag(&current.tags, &name).is_some();
+        if current.has_moves() || current.has_ended() || again {
+            self.begun = Some(self.first_tag(line, name, value));
+            return Next::NewGame;
         }
-        Ok(false)
+        current.tag(line, name, value);
+        Next::SameGame
     }
 
     fn first_tag(&mut self, line: usize, name: String, value: String) -> ScannedGame {
         let line = self.stray_tags.first().map_or(line, |(line, _)| *line);
         let mut game = ScannedGame::at(line);
-        game.take_unreadable(&mut self.stray_tags);
+        game.take_stray(&mut self.stray_tags);
         game.tag(line, name, value);
         game
     }
 
-    /// Reads a `{ comment }`; true when it is never closed, and a new game begins within it.
-    fn comment(&mut self, game: &mut Option<ScannedGame>) -> io::Result<bool> {
+    /// The game under way, which now goes on; begun here if there is none.
+    fn current<'a>(
+        &mut self,
+        game: &'a mut Option<ScannedGame>,
+        line: usize,
+    ) -> &'a mut ScannedGame {
+        let game = game.get_or_insert_with(|| ScannedGame::at(line));
+        game.take_stray(&mut self.stray_tags);
+        game
+    }
+
+    /// Reads a `{ comment }`; a tag section within shows that it is never closed.
+    fn comment(&mut self, game: &mut Option<ScannedGame>) -> io::Result<Next> {
         let opened = self.bytes.line;
         self.bytes.bump()?;
         let mut text = Vec::new();
         let mut line_start = 0;
-        let mut blank_before = false;
         loop {
             let line = self.bytes.line;
             match self.bytes.bump()? {
                 Some(b'}') => {
+                    if let Some(game) = game.as_mut().filter(|_| text.contains(&b'{')) {
+                        // Either this comment or the one within it was never closed.
+                        game.stop(opened, "{", "opens a comment with another one in it");
+                    }
                     self.comment_text(game, &text);
-                    return Ok(false);
+                    return Ok(Next::SameGame);
                 }
                 Some(b'\n') => {
-                    let last = text[line_start..].trim_ascii();
-                    // A tag section within a comment: the brace was forgotten.
-                    if blank_before
-                        && last.starts_with(b"[Event ")
-                        && let Some((name, value)) = parse_tag(&decoded(last))
+                    let last = decoded(text[line_start..].trim_ascii());
+                    let tag = parse_tag(&last);
+                    if let Some((name, value)) =
+                        tag.filter(|(name, _)| FIRST_TAGS.contains(&name.as_str()))
                     {
                         self.begun = Some(self.first_tag(line, name, value));
                         break;
                     }
-                    blank_before = last.is_empty();
                     text.push(b' ');
                     line_start = text.len();
                 }
@@ -178,10 +231,11 @@ impl<R: BufRead> Scanner<R> {
                 None => break,
             }
         }
-        if let Some(game) = game {
-            game.report(opened, "{", "opens a comment that is never closed", true);
+        if let Some(game) = game.as_mut().or(self.begun.as_mut()) {
+            let what = "opens a comment that is never closed";
+            game.problems.push(Problem::new(opened, "{", what, game.has_moves()));
         }
-        Ok(self.begun.is_some())
+        Ok(if self.begun.is_some() { Next::NewGame } else { Next::SameGame })
     }
 
     fn comment_text(&mut self, game: &mut Option<ScannedGame>, text: &[u8]) {
@@ -193,75 +247,72 @@ impl<R: BufRead> Scanner<R> {
         }
     }
 
-    fn variation(&mut self, game: &mut Option<ScannedGame>) -> io::Result<()> {
+    fn variation(&mut self, game: &mut Option<ScannedGame>) -> io::Result<Next> {
         let line = self.bytes.line;
         let Some(byte) = self.bytes.bump()? else {
-            return Ok(());
+            return Ok(Next::SameGame);
         };
-        let game = game.get_or_insert_with(|| ScannedGame::at(line));
-        game.take_unreadable(&mut self.stray_tags);
+        let game = self.current(game, line);
         if byte == b'(' {
+            if game.tokens.is_empty() {
+                game.stop(line, "(", "opens a variation before any move");
+            }
             game.open_variations.push(line);
         } else if game.open_variations.pop().is_none() {
             // What came before may have been a variation: nothing after it is certain.
-            game.tokens.push(Token { line, text: ")".to_owned() });
-            return Ok(());
+            game.stop(line, ")", "closes nothing");
+            return Ok(Next::SameGame);
         }
         game.movetext.extend([byte, b' ']);
-        Ok(())
+        Ok(Next::SameGame)
     }
 
-    /// Passes over `<…>`: the standard keeps it for later, and pages from the web leave `<br>`.
-    fn angle(&mut self, game: &mut Option<ScannedGame>) -> io::Result<()> {
+    /// Reads `<…>`: the standard keeps it for later, and pages from the web leave `<br>`.
+    fn angle(&mut self, game: &mut Option<ScannedGame>) -> io::Result<Next> {
         let line = self.bytes.line;
         let mut raw = self.bytes.until(|byte| b">\r\n".contains(&byte))?;
         if self.bytes.peek()? == Some(b'>') {
             raw.extend(self.bytes.bump()?);
         }
-        let raw = decoded(&raw);
         if let Some(game) = game {
-            let reported = game.problems.iter().any(|problem| problem.token == raw);
-            if !reported {
-                game.report(line, &raw, "is no move", false);
-            }
+            game.bracketed(line, &decoded(&raw));
         }
-        Ok(())
+        Ok(Next::SameGame)
     }
 
-    /// Reads a word; true when it begins the next game.
-    fn word(&mut self, game: &mut Option<ScannedGame>) -> io::Result<bool> {
+    fn word(&mut self, game: &mut Option<ScannedGame>) -> io::Result<Next> {
         let line = self.bytes.line;
         let at_line_start = self.bytes.at_line_start;
-        let raw = self.bytes.word()?;
-        let text = decoded(&raw);
-        let text = text.trim_start_matches('\u{feff}');
+        let raw = decoded(&self.bytes.word()?);
+        let text = raw.trim_start_matches('\u{feff}');
         if text.is_empty() {
             self.bytes.at_line_start = at_line_start;
-            return Ok(false);
+            return Ok(Next::SameGame);
         }
         if let Some(game) = game.as_mut().filter(|game| !game.open_variations.is_empty()) {
             game.keep(text);
-            return Ok(false);
+            return Ok(Next::SameGame);
         }
-        let (number, rest) = split_number(text);
-        let mut words = number.map(Word::Number).into_iter().chain(classify(rest)).peekable();
-        let goes_on =
-            words.peek().is_some_and(|word| matches!(word, Word::Number(_) | Word::Move(_)));
-        if goes_on && game.as_ref().is_some_and(ScannedGame::has_ended) {
+        // Blanks that are not ASCII (a no-break space) may stand within.
+        let words: Vec<Word> = text.split_whitespace().flat_map(classify).collect();
+        let goes_on = words.iter().any(|word| matches!(word, Word::Number { .. } | Word::Move(_)));
+        let begins = |game: &ScannedGame| {
+            let from_one = matches!(words.first(), Some(Word::Number { number: 1, dots: 1 }));
+            game.has_ended() && goes_on || from_one && game.tokens.len() > 1
+        };
+        if game.as_ref().is_some_and(begins) {
             let mut next = ScannedGame::at(line);
-            next.take_unreadable(&mut self.stray_tags);
+            next.take_stray(&mut self.stray_tags);
             next.take(line, text, words);
             self.begun = Some(next);
-            return Ok(true);
+            return Ok(Next::NewGame);
         }
         // A result alone, outside any game, is none.
-        if game.is_none() && !goes_on {
-            return Ok(false);
+        if game.is_none() && matches!(words[..], [Word::Result(_)]) {
+            return Ok(Next::SameGame);
         }
-        let game = game.get_or_insert_with(|| ScannedGame::at(line));
-        game.take_unreadable(&mut self.stray_tags);
-        game.take(line, text, words);
-        Ok(false)
+        self.current(game, line).take(line, text, words);
+        Ok(Next::SameGame)
     }
 }
 
@@ -278,6 +329,14 @@ impl ScannedGame {
         ScannedGame { line, ..ScannedGame::default() }
     }
 
+    /// Whether nothing in the text says that it is a game: no tag, number, result or move.
+    pub fn is_no_game(&self) -> bool {
+        self.tags.is_empty()
+            && self.unread_tags.is_empty()
+            && !self.has_ended()
+            && self.tokens.iter().all(|token| token.number.is_none() && !token.is_move())
+    }
+
     fn has_moves(&self) -> bool {
         !self.tokens.is_empty() || !self.open_variations.is_empty()
     }
@@ -286,36 +345,58 @@ impl ScannedGame {
         self.result.is_some()
     }
 
-    fn report(&mut self, line: usize, token: &str, what: &str, loses_moves: bool) {
-        self.problems.push(Problem::new(line, token, what, loses_moves));
+    /// Notes something that hides no move.
+    fn remark(&mut self, line: usize, token: &str, what: &str) {
+        let problem = Problem::new(line, token, what, false);
+        let known =
+            self.problems.iter().any(|known| known.token == problem.token && known.what == what);
+        if !known {
+            self.problems.push(problem);
+        }
+    }
+
+    /// Adds a token at which the game cannot go on; behind the result there is nothing to lose.
+    fn stop(&mut self, line: usize, text: &str, fault: &'static str) {
+        if self.has_ended() {
+            self.remark(line, text, fault);
+        } else {
+            let text = text.to_owned();
+            self.tokens.push(Token { line, text, fault: Some(fault), ..Token::default() });
+        }
     }
 
     fn tag(&mut self, line: usize, name: String, value: String) {
         self.gap = false;
         if super::tag(&self.tags, &name).is_some() {
-            self.report(
-                line,
-                &format!("[{name} \"{value}\"]"),
-                "repeats a tag; the first one counts",
-                false,
-            );
+            let what = "repeats a tag; the first one counts";
+            self.remark(line, &format!("[{name} \"{value}\"]"), what);
         } else {
             self.tags.push((name, value));
         }
     }
 
-    /// Takes unreadable tags over as problems.
-    fn take_unreadable(&mut self, tags: &mut Vec<(usize, String)>) {
+    /// Takes unreadable tags over.
+    fn take_stray(&mut self, tags: &mut Vec<(usize, String)>) {
         for (line, raw) in tags.drain(..) {
-            let name = raw.trim_start_matches(['[', ' ', '\t']).to_ascii_lowercase();
-            let says_start = ["fen", "setup", "variant"].iter().any(|tag| name.starts_with(tag));
-            if says_start && self.has_moves() {
-                // What follows may be moves of a game with a start of its own: stop there.
-                self.tokens.push(Token { line, text: raw });
+            let what = "is no tag, expected [Name \"Value\"]";
+            if self.has_moves() || !raw.ends_with(']') && raw.contains("1.") {
+                // It may hold moves, or be the start of a game that is not this one.
+                self.stop(line, &raw, what);
                 continue;
             }
+            let name = raw.trim_start_matches(['[', ' ', '\t']).to_ascii_lowercase();
+            let says_start = ["fen", "setup", "variant"].iter().any(|tag| name.starts_with(tag));
             self.start_is_lost |= says_start;
-            self.report(line, &raw, "is no tag, expected [Name \"Value\"]", says_start);
+            self.problems.push(Problem::new(line, &raw, what, says_start));
+            self.unread_tags.push(raw);
+        }
+    }
+
+    fn bracketed(&mut self, line: usize, raw: &str) {
+        if is_harmless(raw) {
+            self.remark(line, raw, "is no move");
+        } else {
+            self.stop(line, raw, "may hide moves");
         }
     }
 
@@ -324,29 +405,52 @@ impl ScannedGame {
         self.movetext.push(b' ');
     }
 
-    fn take(&mut self, line: usize, text: &str, words: impl Iterator<Item = Word>) {
+    fn take(&mut self, line: usize, text: &str, words: Vec<Word>) {
         self.keep(text);
         for word in words {
             match word {
-                Word::Number(number) => {
-                    self.first_number = self.first_number.or(Some(number));
-                }
-                Word::Result(result) => {
-                    if self.result.as_ref().is_some_and(|known| *known != result) {
-                        self.report(line, text, "is a second result; the first one counts", false);
+                Word::Number { number, dots } => {
+                    let twice = self.before.number.is_some();
+                    self.before = Before { number: Some(number), dots: dots > 1, letter: false };
+                    if twice {
+                        self.stop(line, text, "is a second number without a move between");
                     }
-                    self.result.get_or_insert(result);
                 }
-                Word::Move(text) => self.tokens.push(Token { line, text }),
+                Word::Dots(dots) => self.before.dots |= dots > 1,
+                Word::Result(result) => match self.result {
+                    Some(known) if known != result => {
+                        self.remark(line, text, "is a second result; the first one counts");
+                    }
+                    _ => self.result = Some(result),
+                },
+                Word::Move(text) => self.token(line, text),
                 Word::Annotation => {}
-                Word::Odd => self.report(line, text, "is no move", false),
+                Word::Letter('N' | 'D') if self.before.number.is_none() => {
+                    self.remark(line, text, "is no move");
+                    self.before.letter = true;
+                }
+                Word::Letter(_) | Word::Unknown => self.stop(line, text, "is no move"),
             }
         }
     }
 
+    fn token(&mut self, line: usize, text: String) {
+        let before = mem::take(&mut self.before);
+        // `N f3`: a pawn's move behind a lone letter may be the move of a piece.
+        let torn = before.letter && !text.starts_with(|c: char| c.is_uppercase());
+        self.tokens.push(Token {
+            line,
+            text,
+            number: before.number,
+            is_blacks: before.dots,
+            fault: torn.then_some("follows a letter that may be its piece"),
+        });
+    }
+
     fn closed(mut self) -> ScannedGame {
         if let Some(&line) = self.open_variations.first() {
-            self.report(line, "(", "opens a variation that is never closed", true);
+            let what = "opens a variation that is never closed";
+            self.problems.push(Problem::new(line, "(", what, true));
         }
         self
     }

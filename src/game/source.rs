@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader};
 use std::path::Path;
 
-use super::{Game, Scanner};
+use super::{Game, Problem, Scanner};
 
 /// A file of games that is open, or the standard input.
 pub struct Source {
@@ -69,48 +69,70 @@ impl Source {
         }
     }
 
-    /// Reads the games one after the other, numbered from 1. Text before a game that is none is
-    /// reported with the game that follows.
-    pub fn games(self) -> impl Iterator<Item = Result<Game, SourceError>> {
-        let name = self.name;
-        let mut scanner = Scanner::new(self.reader);
-        let mut number = 0;
-        let mut strays = Vec::new();
-        let mut ended = false;
-        std::iter::from_fn(move || {
-            while !ended {
-                match scanner.next() {
-                    Some(Ok(scanned)) => {
-                        let mut game = Game::read(scanned);
-                        if game.tags.is_empty() && game.plies.is_empty() && number == 0 {
-                            strays.append(&mut game.problems);
-                            continue;
-                        }
-                        number += 1;
-                        game.number = number;
-                        game.problems.splice(
-                            0..0,
-                            strays.drain(..).map(|mut stray: super::Problem| {
-                                stray.loses_moves = false;
-                                stray
-                            }),
-                        );
-                        return Some(Ok(game));
-                    }
-                    Some(Err(error)) => {
-                        ended = true;
-                        return Some(Err(SourceError::Io { name: name.clone(), error }));
-                    }
-                    None => ended = true,
+    /// Reads the games one after the other, numbered from 1. Text that is no game is reported with
+    /// the game that follows; behind the last game, as a game of which nothing can be shown.
+    pub fn games(self) -> Games {
+        Games {
+            name: self.name,
+            scanner: Scanner::new(self.reader),
+            number: 0,
+            strays: Vec::new(),
+            has_ended: false,
+        }
+    }
+}
+
+/// The games of a [`Source`], read one by one.
+pub struct Games {
+    name: String,
+    scanner: Scanner<Box<dyn BufRead>>,
+    number: usize,
+    strays: Vec<Problem>,
+    has_ended: bool,
+}
+
+impl Iterator for Games {
+    type Item = Result<Game, SourceError>;
+
+    fn next(&mut self) -> Option<Result<Game, SourceError>> {
+        let name = || self.name.clone();
+        while !self.has_ended {
+            let scanned = match self.scanner.next() {
+                Some(Ok(scanned)) => scanned,
+                Some(Err(error)) => {
+                    self.has_ended = true;
+                    return Some(Err(SourceError::Io { name: name(), error }));
                 }
+                None => {
+                    self.has_ended = true;
+                    break;
+                }
+            };
+            if scanned.is_no_game() {
+                let line = scanned.line;
+                let text = scanned.tokens.first().map_or("", |token| &token.text);
+                self.strays.push(Problem::new(line, text, "begins a text that is no game", false));
+                self.strays.extend(scanned.problems);
+                continue;
             }
-            if number == 0 {
-                number = usize::MAX;
-                let problem = strays.drain(..).next();
-                return Some(Err(SourceError::NoGames { name: name.clone(), problem }));
+            self.number += 1;
+            let mut game = Game::read(scanned, self.number);
+            game.problems.splice(0..0, self.strays.drain(..));
+            return Some(Ok(game));
+        }
+        let strays = std::mem::take(&mut self.strays);
+        match strays.first() {
+            _ if self.number == 0 => {
+                self.number = 1;
+                let problem = strays.into_iter().next();
+                Some(Err(SourceError::NoGames { name: name(), problem }))
             }
-            None
-        })
+            None => None,
+            Some(first) => {
+                self.number += 1;
+                Some(Ok(Game::nothing(self.number, first.line, strays)))
+            }
+        }
     }
 }
 

@@ -1,55 +1,112 @@
 //! Words of the movetext, and tag pairs.
+//!
+//! A word that is not known to be harmless is never passed over: it may be a move, or a part of
+//! one, and what follows it would then be played from a position that the game never had.
+
+use encoding_rs::WINDOWS_1252;
 
 /// What a word of the main line is.
+#[derive(Debug, PartialEq, Eq)]
 pub enum Word {
-    Number(u32),
-    Result(String),
+    /// A move number; with two dots or more, Black's move follows.
+    Number {
+        number: u32,
+        dots: usize,
+    },
+    /// Dots on their own: Black's move follows (or a number's own dot stands apart).
+    Dots(usize),
+    Result(&'static str),
+    /// What may be a move.
     Move(String),
-    /// A glyph or symbol; it says nothing about the moves.
+    /// A glyph, an evaluation, `e.p.`: it says nothing about the moves.
     Annotation,
-    /// A word that can be no move, but should not be there.
-    Odd,
+    /// A single letter: a remark (`N` for a novelty), or a piece that was torn from its square.
+    Letter(char),
+    /// Nothing that belongs into a game.
+    Unknown,
 }
 
-/// The move number at the front of a word (`12.`, `12...`, or the whole word), and what follows.
-pub fn split_number(word: &str) -> (Option<u32>, &str) {
+/// What evaluations and glyphs are made of.
+const SYMBOLS: &str = "+-=/!?#~±∓⩲⩱∞□○⟳⊕⨁↑→⇆△▲⌓⟂∥×";
+
+/// Cuts a move number from the front of a word, and says what that and the rest are.
+pub fn classify(word: &str) -> impl Iterator<Item = Word> {
     let rest = word.trim_start_matches(|c: char| c.is_ascii_digit());
     let digits = &word[..word.len() - rest.len()];
     let after = rest.trim_start_matches(['.', '…']);
-    if rest.is_empty() || after.len() < rest.len() {
-        (digits.parse().ok(), after)
-    } else {
-        (None, word)
-    }
+    let dots: usize =
+        rest[..rest.len() - after.len()].chars().map(|c| if c == '…' { 3 } else { 1 }).sum();
+    let numbered = (dots > 0 || rest.is_empty()) && word != "0000";
+    let number = match digits.parse() {
+        _ if !numbered || word.is_empty() => None,
+        Ok(number) => Some(Word::Number { number, dots }),
+        // `...e5`, but not `.e5`, which has lost something.
+        Err(_) if digits.is_empty() && (dots > 1 || after.is_empty()) => Some(Word::Dots),
+        Err(_) => Some(Word::Unknown),
+    };
+    let rest = if numbered { after } else { word };
+    number.into_iter().chain(unnumbered(rest))
 }
 
-/// Says what a word (without its move number) is; nothing for an empty one.
-pub fn classify(word: &str) -> Option<Word> {
+fn unnumbered(word: &str) -> Option<Word> {
     if word.is_empty() {
         return None;
     }
-    let ascii_dashes = word.replace(['–', '—', '−', '‐', '‑'], "-");
-    let result = match ascii_dashes.as_str() {
-        "1-0" | "0-1" | "1/2-1/2" | "*" => Some(ascii_dashes.as_str()),
-        "1/2" | "½-½" | "½" => Some("1/2-1/2"),
-        _ => None,
-    };
-    if let Some(result) = result {
-        return Some(Word::Result(result.to_owned()));
+    if let Some(result) = result(word) {
+        return Some(Word::Result(result));
     }
     let bare = word.trim_end_matches(['!', '?', '.']);
-    let null = bare == "--";
-    let letters = bare.chars().filter(|c| c.is_alphanumeric()).count();
-    Some(match letters {
-        0 if !null => Word::Annotation,
-        _ if word.starts_with('$') => Word::Annotation,
-        // No move is written with a single letter or digit.
-        1 => Word::Odd,
-        2 if bare.eq_ignore_ascii_case("ep") || bare.eq_ignore_ascii_case("e.p") => {
+    let alphanumerics = bare.chars().filter(|c| c.is_alphanumeric()).count();
+    let nag = word.strip_prefix('$').is_some_and(|n| n.parse::<u32>().is_ok());
+    Some(match alphanumerics {
+        _ if nag => Word::Annotation,
+        _ if bare.eq_ignore_ascii_case("ep") || bare.eq_ignore_ascii_case("e.p") => {
             Word::Annotation
         }
+        0 if is_null(bare) => Word::Move(bare.to_owned()),
+        // Dashes alone stand for a move that is not there.
+        0 if word.trim_matches(['-', '/', '=']).is_empty() && !word.contains('=') => Word::Unknown,
+        0 if word.chars().all(|c| SYMBOLS.contains(c)) => Word::Annotation,
+        0 | 1 => match bare.as_bytes() {
+            [letter @ b'A'..=b'Z'] => Word::Letter(char::from(*letter)),
+            _ => Word::Unknown,
+        },
         _ => Word::Move(bare.to_owned()),
     })
+}
+
+fn result(word: &str) -> Option<&'static str> {
+    match ascii_dashes(word).trim_end_matches('.') {
+        "1-0" | "1:0" => Some("1-0"),
+        "0-1" | "0:1" => Some("0-1"),
+        "1/2-1/2" | "1/2:1/2" | "1/2" | "½-½" | "½:½" | "½" => Some("1/2-1/2"),
+        "*" => Some("*"),
+        _ => None,
+    }
+}
+
+/// Whether a word says that a player passes.
+pub fn is_null(word: &str) -> bool {
+    matches!(ascii_dashes(word).as_str(), "--" | "Z0" | "0000" | "@@@@")
+}
+
+/// `word` with every kind of dash and hyphen as `-`.
+pub fn ascii_dashes(word: &str) -> String {
+    word.replace(['–', '—', '−', '‐', '‑'], "-")
+}
+
+/// Whether what stands in brackets within the moves is known to hold none: a command for programs
+/// (`[%clk 0:01]`), a diagram mark (`[#]`), or a tag of a web page (`<br />`).
+pub fn is_harmless(bracketed: &str) -> bool {
+    let inner = |open, close| bracketed.strip_prefix(open)?.strip_suffix(close);
+    if let Some(inner) = inner('[', ']') {
+        return inner.starts_with('%') || inner == "#";
+    }
+    let Some(inner) = inner('<', '>') else {
+        return false;
+    };
+    let name = inner.trim_matches(['/', ' ']);
+    !name.is_empty() && name.len() < 8 && name.chars().all(|c| c.is_ascii_lowercase())
 }
 
 /// Name and value of a tag pair; the closing bracket may be missing.
@@ -57,29 +114,103 @@ pub fn parse_tag(raw: &str) -> Option<(String, String)> {
     let inner = raw.strip_prefix('[')?.trim();
     let inner = inner.strip_suffix(']').unwrap_or(inner).trim_end();
     let (name, quoted) = inner.split_at(inner.find([' ', '\t', '"'])?);
-    let named = name.starts_with(|c: char| c.is_alphanumeric() || c == '_');
+    let named =
+        !name.is_empty() && name.chars().all(|c| c.is_alphanumeric() || c == '_' || c == '-');
     let quoted = quoted.trim_start().strip_prefix('"')?.strip_suffix('"')?;
     let mut value = String::with_capacity(quoted.len());
-    let mut characters = quoted.chars();
+    let mut characters = quoted.chars().peekable();
     while let Some(character) = characters.next() {
         match character {
-            '\\' => value.push(characters.next()?),
+            '\\' => value.push(characters.next_if(|c| "\"\\".contains(*c)).unwrap_or('\\')),
             '"' => return None,
             other => value.push(other),
         }
     }
-    named.then(|| (name.to_owned(), printable(&value)))
+    // A backslash before the last quote has made it a part of the value.
+    (named && !ends_escaped(quoted)).then(|| (name.to_owned(), printable(&value)))
 }
 
-/// UTF-8 where the bytes are that, else Latin-1.
+fn ends_escaped(quoted: &str) -> bool {
+    let backslashes = quoted.len() - quoted.trim_end_matches('\\').len();
+    backslashes % 2 == 1
+}
+
+/// UTF-8 where the bytes are that, else Windows-1252, which is Latin-1 and a little more.
 pub fn decoded(bytes: &[u8]) -> String {
     match std::str::from_utf8(bytes) {
         Ok(text) => text.to_owned(),
-        Err(_) => bytes.iter().copied().map(char::from).collect(),
+        Err(_) => WINDOWS_1252.decode_without_bom_handling(bytes).0.into_owned(),
     }
 }
 
-/// `text` with nothing in it that moves a cursor or rings a bell.
+/// `text` on one line, with nothing in it that moves a cursor, rings a bell, turns the direction
+/// of writing or cannot be seen.
 pub fn printable(text: &str) -> String {
-    text.replace(char::is_control, " ")
+    let unfit = |c: char| {
+        c.is_control()
+            || matches!(c, '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}')
+            || matches!(c, '\u{2060}'..='\u{2069}' | '\u{feff}')
+    };
+    text.replace(unfit, " ")
+}
+
+/// The first `longest` characters of `text`, with `…` where some are cut off.
+pub fn shortened(text: &str, longest: usize) -> String {
+    match text.char_indices().nth(longest) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_are_told_apart() {
+        let number = |number, dots| Word::Number { number, dots };
+        let a_move = |text: &str| Word::Move(text.to_owned());
+        let cases = [
+            ("12.", vec![number(12, 1)]),
+            ("12", vec![number(12, 0)]),
+            ("1.e4!?", vec![number(1, 1), a_move("e4")]),
+            ("3...Nf6", vec![number(3, 3), a_move("Nf6")]),
+            ("3…Nf6", vec![number(3, 3), a_move("Nf6")]),
+            ("...Nf6", vec![Word::Dots(3), a_move("Nf6")]),
+            ("...", vec![Word::Dots(3)]),
+            (".Nf6", vec![Word::Unknown, a_move("Nf6")]),
+            ("0-0", vec![a_move("0-0")]),
+            ("0000", vec![a_move("0000")]),
+            ("–‐", vec![a_move("–‐")]),
+            ("1-0", vec![Word::Result("1-0")]),
+            ("1–0.", vec![Word::Result("1-0")]),
+            ("½", vec![Word::Result("1/2-1/2")]),
+            ("+-", vec![Word::Annotation]),
+            ("=", vec![Word::Annotation]),
+            ("!?", vec![Word::Annotation]),
+            ("$12", vec![Word::Annotation]),
+            ("$", vec![Word::Unknown]),
+            ("e.p.", vec![Word::Annotation]),
+            ("N", vec![Word::Letter('N')]),
+            ("♘", vec![Word::Unknown]),
+            ("-", vec![Word::Unknown]),
+            ("_", vec![Word::Unknown]),
+            ("5x", vec![a_move("5x")]),
+            ("e", vec![Word::Unknown]),
+            ("", vec![]),
+        ];
+        for (word, expected) in cases {
+            assert_eq!(classify(word).collect::<Vec<_>>(), expected, "{word:?}");
+        }
+    }
+
+    #[test]
+    fn brackets_without_moves_are_known() {
+        for harmless in ["[%clk 0:01:00]", "[#]", "<br>", "<br />", "</p>"] {
+            assert!(is_harmless(harmless), "{harmless}");
+        }
+        for other in ["[2. Nf3 Nc6]", "[%clk", "<2. Nf3>", "<Nf3>", "<br", "[]", "<>"] {
+            assert!(!is_harmless(other), "{other}");
+        }
+    }
 }
