@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, bail};
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 use lightsquare::config::{Config, MAX_SIDE};
 use lightsquare::game::{Moment, Selection};
 use lightsquare::job::{DiagramJob, InspectJob, PictureSettings, RenderJob, Subject};
@@ -11,7 +11,7 @@ use lightsquare::notation::Placement;
 use lightsquare::timeline::Film;
 use lightsquare::tracer::Antialiasing;
 
-use crate::progress::{Loudness, ProgressMode};
+use crate::progress::{ProgressMode, Verbosity};
 
 /// Reads chess games (PGN), replays them and ray-traces them into numbered pictures.
 #[derive(Parser)]
@@ -20,12 +20,36 @@ pub struct Cli {
     #[command(subcommand)]
     pub command: Command,
     #[command(flatten)]
-    pub talk: Talk,
+    pub messages: MessageArgs,
+}
+
+/// Reads the arguments; whoever asks for help, or gives a wrong one, is answered at once.
+pub fn parse() -> Cli {
+    // Answers are coloured before the arguments are read, so this one is looked for alone.
+    let given: Vec<String> = std::env::args().collect();
+    let asked = |when: &str| {
+        given.iter().any(|argument| *argument == format!("--color={when}"))
+            || given.windows(2).any(|pair| pair[0] == "--color" && pair[1] == when)
+    };
+    let choice = match (asked("always"), asked("never")) {
+        (true, _) => ColorChoice::Always,
+        (_, true) => ColorChoice::Never,
+        _ => ColorChoice::Auto,
+    };
+    let matches = Cli::command().color(choice).get_matches();
+    let cli = Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
+    match cli.messages.color {
+        ColorMode::Auto => {}
+        ColorMode::Always => anstream::ColorChoice::Always.write_global(),
+        ColorMode::Never => anstream::ColorChoice::Never.write_global(),
+    }
+    cli
 }
 
 /// How much is said, and how.
 #[derive(Args)]
-pub struct Talk {
+#[command(next_help_heading = "Messages")]
+pub struct MessageArgs {
     /// Say nothing but errors
     #[arg(short, long, global = true)]
     quiet: bool,
@@ -34,14 +58,14 @@ pub struct Talk {
     verbose: bool,
     /// When to colour messages
     #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
-    pub color: ColorMode,
-    /// How to show progress (auto: a bar on a terminal, a line now and then elsewhere)
+    color: ColorMode,
+    /// How to show progress
     #[arg(long, global = true, value_name = "HOW", default_value = "auto")]
     pub progress: ProgressMode,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum ColorMode {
+enum ColorMode {
     Auto,
     Always,
     Never,
@@ -129,14 +153,14 @@ pub struct DiagramArgs {
     #[arg(value_name = "PGN", required_unless_present_any = ["fen", "white", "black"])]
     input: Option<PathBuf>,
     /// The game's number in its file
-    #[arg(long, value_name = "GAME", default_value = "1", value_parser = clap::value_parser!(u64).range(1..), conflicts_with_all = ["fen", "white", "black"])]
-    select: u64,
+    #[arg(long, value_name = "GAME", default_value = "1", value_parser = game_number, conflicts_with_all = ["fen", "white", "black"])]
+    select: usize,
     /// The position: after a move (17w, 17b), after so many half-moves, start or end
     #[arg(long, value_name = "MOVE", default_value = "end", conflicts_with_all = ["fen", "white", "black"])]
     at: Moment,
     /// A position as FEN, or the board part of one; it need not be legal
     #[arg(long, value_name = "FEN", value_parser = fen, conflicts_with_all = ["input", "white", "black"])]
-    fen: Option<Placed>,
+    fen: Option<FenArg>,
     /// White's pieces in the thesis's letters K D V S J P, as in KE1PE2
     #[arg(long, value_name = "PIECES", conflicts_with = "input")]
     white: Option<String>,
@@ -176,11 +200,11 @@ struct PictureArgs {
     #[arg(long, value_name = "MODE", default_value = "grid", help_heading = "Picture")]
     aa: AntialiasingMode,
     /// Rays along one side of a pixel's grid, from 1 to 32
-    #[arg(long, value_name = "N", default_value = "2", value_parser = clap::value_parser!(u32).range(1..=32), help_heading = "Picture")]
+    #[arg(long, value_name = "N", default_value = "2", value_parser = rays, help_heading = "Picture")]
     ssrays: u32,
     /// Threads, from 1 to 1024 [default: one a core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), help_heading = "Picture")]
-    cpu: Option<u16>,
+    #[arg(long, value_name = "N", value_parser = threads, help_heading = "Picture")]
+    cpu: Option<usize>,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -191,14 +215,21 @@ enum AntialiasingMode {
     Grid,
 }
 
-impl Talk {
-    pub fn loudness(&self) -> Loudness {
-        Loudness { quiet: self.quiet, verbose: self.verbose }
+impl MessageArgs {
+    pub fn verbosity(&self) -> Verbosity {
+        match (self.quiet, self.verbose) {
+            (true, _) => Verbosity::Quiet,
+            (_, true) => Verbosity::Verbose,
+            _ => Verbosity::Normal,
+        }
     }
 }
 
 impl RenderArgs {
     pub fn into_job(self) -> anyhow::Result<RenderJob> {
+        if self.out == Path::new("-") {
+            bail!(UsageError("--out: expected a folder, found `-`".to_owned()));
+        }
         let film = Film {
             fps: self.fps,
             transition: self.transition,
@@ -221,15 +252,20 @@ impl RenderArgs {
 
 impl DiagramArgs {
     pub fn into_job(self) -> anyhow::Result<DiagramJob> {
+        if let Some(ending) = self.output.extension().filter(|e| !e.eq_ignore_ascii_case("png")) {
+            let ending = ending.to_string_lossy();
+            bail!(UsageError(format!(
+                "--output: pictures are PNG, found `.{ending}`, expected `.png`"
+            )));
+        }
         let subject = match (self.input, self.fen) {
-            (Some(file), _) => {
-                Subject::Game { file, number: usize::try_from(self.select)?, at: self.at }
-            }
-            (None, Some(Placed(placement, fen))) => Subject::Placement { placement, fen },
+            (Some(file), _) => Subject::Game { file, number: self.select, at: self.at },
+            (None, Some(FenArg(placement, fen))) => Subject::Placement { placement, fen },
             (None, None) => {
                 let [white, black] =
                     [&self.white, &self.black].map(|text| text.as_deref().unwrap_or_default());
-                let placement = Placement::parse(white, black)?;
+                let placement = Placement::parse(white, black)
+                    .map_err(|error| UsageError(format!("--white or --black: {error}")))?;
                 Subject::Placement { fen: placement.board_fen(), placement }
             }
         };
@@ -258,10 +294,15 @@ impl PictureArgs {
                 AntialiasingMode::None => Antialiasing::None,
                 AntialiasingMode::Grid => Antialiasing::Grid(self.ssrays),
             },
-            threads: self.cpu.map(usize::from),
+            threads: self.cpu,
         })
     }
 }
+
+/// An argument that only proves wrong together with others, or on a second look.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+pub struct UsageError(String);
 
 fn read_config(path: &Path) -> anyhow::Result<Config> {
     if path.is_dir() {
@@ -288,6 +329,25 @@ fn number(text: &str, min: f64, max: f64) -> Result<f64, String> {
         .ok_or_else(|| format!("expected a number from {min} to {max}"))
 }
 
+fn whole_number(text: &str, min: usize, max: usize) -> Result<usize, String> {
+    text.parse()
+        .ok()
+        .filter(|number| (min..=max).contains(number))
+        .ok_or_else(|| format!("expected a whole number from {min} to {max}"))
+}
+
+fn game_number(text: &str) -> Result<usize, String> {
+    whole_number(text, 1, 1_000_000_000)
+}
+
+fn rays(text: &str) -> Result<u32, String> {
+    whole_number(text, 1, 32).map(|rays| rays as u32)
+}
+
+fn threads(text: &str) -> Result<usize, String> {
+    whole_number(text, 1, 1024)
+}
+
 fn fps(text: &str) -> Result<f64, String> {
     number(text, 1.0, 240.0)
 }
@@ -302,10 +362,10 @@ fn degrees(text: &str) -> Result<f64, String> {
 
 /// A placement with the FEN that it was read from.
 #[derive(Clone)]
-struct Placed(Placement, String);
+struct FenArg(Placement, String);
 
-fn fen(text: &str) -> Result<Placed, String> {
-    Placement::from_fen(text).map(|placement| Placed(placement, text.to_owned())).map_err(|error| {
+fn fen(text: &str) -> Result<FenArg, String> {
+    Placement::from_fen(text).map(|placement| FenArg(placement, text.to_owned())).map_err(|error| {
         format!(
             "{error}, expected a FEN such as 8/8/8/3k4/8/8/4P3/4K3 w - - 0 1, or its board part"
         )

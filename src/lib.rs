@@ -20,16 +20,15 @@
 //! | [`assets`] | piece sets as data | config, geometry |
 //! | [`geometry`] | rays, spans, bounds, transforms, curves, and one file a shape | – |
 //! | [`scene`] | materials, textures, lights, camera, board and pieces; builds a [`scene::Scene`] from a frame | geometry, config, assets, notation, timeline |
-//! | [`tracer`] | rays through a whole scene, shading, antialiasing; a picture in memory | geometry, scene, config |
+//! | [`tracer`] | rays through a whole scene, shading, antialiasing; a picture in memory | geometry, scene |
 //! | [`output`] | pictures, manifests, reports; whole files only | – |
 //! | [`job`] | what to render: game → timeline → scene → tracer → output; inspect; diagram | all of the above |
 //!
-//! The binary (`main`, `cli`, `progress`) turns arguments into a typed job, shows how far it is,
+//! The binary (`main`, `cli`, `progress`, `signals`) turns arguments into a typed job, shows how far it is,
 //! and sets the exit code; it alone prints. A test holds the imports against this table.
 //!
-//! Where this differs from the first design: a camera turn is part of the frame, as an angle about
-//! the board's middle, so that the timeline needs no geometry; and `tracer` reads the lights'
-//! type from `config`, which has no other.
+//! Where this differs from the first design: a camera's turn is part of the frame, as an angle about
+//! the board's middle, so that the timeline needs no geometry.
 
 pub mod assets;
 pub mod config;

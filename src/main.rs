@@ -2,53 +2,49 @@
 
 mod cli;
 mod progress;
+mod signals;
 
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::process::ExitCode;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use anstyle::{AnsiColor, Style};
 use anyhow::Context;
-use clap::Parser;
-use lightsquare::job::{self, JobError, Progress};
+use lightsquare::job::{self, JobError, PictureSettings, Progress};
 use lightsquare::tracer::RayCounts;
-use signal_hook::consts::{SIGINT, SIGTERM};
 
-use cli::{Cli, ColorMode, Command};
+use cli::{Cli, Command, UsageError};
 use progress::Terminal;
+use signals::Signals;
 
-/// Done, but some game was not rendered whole.
+const WRONG_USAGE: u8 = 2;
+
+/// Done, but some game was not rendered or read whole.
 const INCOMPLETE: u8 = 3;
 
 fn main() -> ExitCode {
-    let cli = Cli::parse();
-    match cli.talk.color {
-        ColorMode::Auto => {}
-        ColorMode::Always => anstream::ColorChoice::Always.write_global(),
-        ColorMode::Never => anstream::ColorChoice::Never.write_global(),
-    }
-    run(cli).unwrap_or_else(|error| {
+    run(cli::parse()).unwrap_or_else(|error| {
         let red = Style::new().bold().fg_color(Some(AnsiColor::Red.into()));
-        anstream::eprintln!("{red}error:{red:#} {error:#}");
-        ExitCode::FAILURE
+        // When stderr cannot be written the exit code alone must tell.
+        let _ = writeln!(anstream::stderr(), "{red}error:{red:#} {error:#}");
+        if error.is::<UsageError>() { ExitCode::from(WRONG_USAGE) } else { ExitCode::FAILURE }
     })
 }
 
 fn run(cli: Cli) -> anyhow::Result<ExitCode> {
-    let Cli { command, talk } = cli;
+    let Cli { command, messages } = cli;
+    let terminal = |signals| Terminal::new(messages.progress, messages.verbosity(), signals);
     match command {
         Command::Render(args) => {
             let job = args.into_job()?;
-            let signal = watch_signals()?;
-            let terminal = Terminal::new(talk.progress, talk.loudness(), signal.clone());
+            let signals = Signals::watch().context("signals cannot be watched")?;
+            let terminal = terminal(signals.clone());
             tell_config(&terminal, &job.picture);
             let summary = job::render(&job, &terminal);
             terminal.finish();
             let summary = summary?;
             terminal.detail(&rays(&summary.rays));
             let stopped = if summary.cancelled { "stopped: " } else { "" };
-            terminal.warn(&format!(
+            terminal.say(&format!(
                 "{stopped}{} frames in {}; games: {} whole, {} in part, {} skipped",
                 summary.frames,
                 job.out.display(),
@@ -56,49 +52,38 @@ fn run(cli: Cli) -> anyhow::Result<ExitCode> {
                 summary.partial,
                 summary.skipped,
             ));
-            Ok(match signal.load(Ordering::Relaxed) {
-                0 if summary.partial + summary.skipped > 0 => ExitCode::from(INCOMPLETE),
-                0 => ExitCode::SUCCESS,
-                number => ExitCode::from(128 + number as u8),
+            Ok(match signals.came().filter(|_| summary.cancelled) {
+                Some(number) => ExitCode::from(128 + number),
+                None => whole(summary.partial + summary.skipped == 0),
             })
         }
         Command::Diagram(args) => {
             let job = args.into_job()?;
-            let terminal = Terminal::new(talk.progress, talk.loudness(), Arc::default());
+            let terminal = terminal(Signals::default());
             tell_config(&terminal, &job.picture);
-            terminal.detail(&rays(&job::diagram(&job)?));
-            Ok(ExitCode::SUCCESS)
+            let summary = job::diagram(&job, &terminal, &mut io::stdout().lock())?;
+            terminal.detail(&rays(&summary.rays));
+            Ok(whole(summary.is_whole))
         }
         Command::Inspect(args) => {
+            let terminal = terminal(Signals::default());
             let mut out = BufWriter::new(io::stdout().lock());
-            match job::inspect(&args.into_job(), &mut out) {
+            match job::inspect(&args.into_job(), &terminal, &mut out) {
                 // Whoever reads has seen enough.
                 Err(JobError::Write(error)) if error.kind() == ErrorKind::BrokenPipe => {
                     Ok(ExitCode::SUCCESS)
                 }
-                outcome => {
-                    out.flush().ok();
-                    Ok(match outcome? {
-                        0 => ExitCode::SUCCESS,
-                        _ => ExitCode::from(INCOMPLETE),
-                    })
-                }
+                outcome => Ok(whole(outcome? == 0)),
             }
         }
     }
 }
 
-/// The number of the first signal that asks to stop will stand in what this gives.
-fn watch_signals() -> anyhow::Result<Arc<AtomicUsize>> {
-    let signal = Arc::new(AtomicUsize::new(0));
-    for number in [SIGINT, SIGTERM] {
-        signal_hook::flag::register_usize(number, signal.clone(), number as usize)
-            .context("signals cannot be watched")?;
-    }
-    Ok(signal)
+fn whole(is_whole: bool) -> ExitCode {
+    if is_whole { ExitCode::SUCCESS } else { ExitCode::from(INCOMPLETE) }
 }
 
-fn tell_config(terminal: &Terminal, picture: &job::PictureSettings) {
+fn tell_config(terminal: &Terminal, picture: &PictureSettings) {
     terminal.detail(&match &picture.config_file {
         Some(path) => format!("settings from {}", path.display()),
         None => "settings are the built-in ones".to_owned(),

@@ -1,14 +1,15 @@
 //! How far a job is, on stderr: a bar on a terminal, a plain line now and then elsewhere.
 
 use std::fmt;
-use std::sync::Arc;
+use std::io::Write;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use clap::ValueEnum;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use lightsquare::job::Progress;
+
+use crate::signals::Signals;
 
 /// Between two plain lines.
 const EVERY: Duration = Duration::from_secs(5);
@@ -16,28 +17,31 @@ const EVERY: Duration = Duration::from_secs(5);
 /// How progress is shown.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum ProgressMode {
+    /// A bar on a terminal, a line now and then elsewhere.
     Auto,
-    Bar,
+    /// A line now and then.
     Plain,
+    /// Nothing.
     None,
 }
 
 /// How much is said beside results and errors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Loudness {
+pub enum Verbosity {
     /// Not even progress and warnings.
-    pub quiet: bool,
+    Quiet,
+    Normal,
     /// Details too.
-    pub verbose: bool,
+    Verbose,
 }
 
 /// The terminal's side of a job.
 pub struct Terminal {
     bar: ProgressBar,
-    loudness: Loudness,
+    verbosity: Verbosity,
     /// When to say the next plain line, where plain lines are wanted.
     plain: Option<Mutex<Plain>>,
-    signal: Arc<AtomicUsize>,
+    signals: Signals,
 }
 
 struct Plain {
@@ -46,23 +50,18 @@ struct Plain {
 }
 
 impl Terminal {
-    /// `signal` holds the number of a signal that came, or 0.
-    pub fn new(mode: ProgressMode, loudness: Loudness, signal: Arc<AtomicUsize>) -> Terminal {
+    pub fn new(mode: ProgressMode, verbosity: Verbosity, signals: Signals) -> Terminal {
         let on_terminal = std::io::IsTerminal::is_terminal(&std::io::stderr());
-        let bar = match mode {
-            _ if loudness.quiet => false,
-            ProgressMode::Auto => on_terminal,
-            ProgressMode::Bar => true,
-            ProgressMode::Plain | ProgressMode::None => false,
-        };
-        let plain = !loudness.quiet && !bar && mode != ProgressMode::None;
+        let talks = verbosity != Verbosity::Quiet && mode != ProgressMode::None;
+        let bar = talks && on_terminal && mode == ProgressMode::Auto;
+        let plain = talks && !bar;
         let target = if bar { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
         Terminal {
             bar: ProgressBar::with_draw_target(Some(0), target).with_style(style()),
-            loudness,
+            verbosity,
             plain: plain
                 .then(|| Mutex::new(Plain { next: Instant::now() + EVERY, game: String::new() })),
-            signal,
+            signals,
         }
     }
 
@@ -71,8 +70,9 @@ impl Terminal {
         self.bar.finish_and_clear();
     }
 
-    fn say(&self, text: &str) {
-        self.bar.suspend(|| anstream::eprintln!("{text}"));
+    fn print(&self, text: &str) {
+        // There is nobody left to tell when stderr cannot be written.
+        self.bar.suspend(|| writeln!(anstream::stderr(), "{text}").ok());
     }
 }
 
@@ -88,6 +88,7 @@ fn style() -> ProgressStyle {
 
 impl Progress for Terminal {
     fn begin(&self, frames: u64) {
+        self.signals.take_over();
         self.bar.set_length(frames);
         self.bar.reset_elapsed();
         self.bar.reset_eta();
@@ -113,25 +114,25 @@ impl Progress for Terminal {
         let seconds = self.bar.elapsed().as_secs_f64().max(1e-3);
         let rate = done as f64 / seconds;
         let left = (all.saturating_sub(done) as f64 / rate).ceil();
-        self.say(&format!(
+        self.print(&format!(
             "{done} of {all} frames, {rate:.1} a second, about {left:.0} s left: {}",
             plain.game
         ));
     }
 
-    fn warn(&self, text: &str) {
-        if !self.loudness.quiet {
-            self.say(text);
+    fn say(&self, text: &str) {
+        if self.verbosity != Verbosity::Quiet {
+            self.print(text);
         }
     }
 
     fn detail(&self, text: &str) {
-        if self.loudness.verbose {
-            self.say(text);
+        if self.verbosity == Verbosity::Verbose {
+            self.print(text);
         }
     }
 
     fn is_cancelled(&self) -> bool {
-        self.signal.load(Ordering::Relaxed) != 0
+        self.signals.came().is_some()
     }
 }

@@ -24,13 +24,14 @@ fn run_in(folder: &Path, arguments: &[&str], input: &str) -> (i32, String, Strin
     (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
 }
 
-/// All files below `folder` with their bytes, by name.
+/// All files and folders below `folder`, by name; files with their bytes.
 fn tree(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
     let mut files = Vec::new();
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         if path.is_dir() {
             files.extend(tree(&path));
+            files.push((path, Vec::new()));
         } else {
             files.push((path.clone(), fs::read(&path).unwrap()));
         }
@@ -278,13 +279,38 @@ fn bad_input_gets_a_sentence_and_leaves_nothing_behind() {
         ),
         (
             &["diagram", "--white", "KE9"],
-            1,
+            2,
             "white: `9` at character 3 is no rank, expected 1 to 8",
         ),
         (
             &["diagram", "game.pgn", "--at", "9w"],
             1,
-            "game.pgn: game 1 has no position 9w, its last one is after 1 half-moves",
+            "game.pgn: game 1 has no position 9w, it goes from start to 1w",
+        ),
+        (&["diagram", "game.pgn", "-o", "x.jpg"], 2, "--output: pictures are PNG, found `.jpg`"),
+        (&["diagram", "game.pgn", "--select", "x"], 2, "expected a whole number from 1"),
+        (
+            &["render", "game.pgn", "--cpu", "x"],
+            2,
+            "'--cpu <N>': expected a whole number from 1 to 1024",
+        ),
+        (&["render", "game.pgn", "-o", "-"], 2, "--out: expected a folder, found `-`"),
+        (
+            &[
+                "render",
+                "game.pgn",
+                "--animate",
+                "--last",
+                "3600",
+                "--first",
+                "3600",
+                "--fps",
+                "240",
+                "--pause",
+                "3600",
+            ],
+            1,
+            "game.pgn: game 1 would take 1728144 frames, expected at most 1000000",
         ),
         (&["inspect", "no.pgn"], 1, "no.pgn: no such file"),
         (&["rendr"], 2, "a similar subcommand exists: 'render'"),
@@ -297,4 +323,127 @@ fn bad_input_gets_a_sentence_and_leaves_nothing_behind() {
         assert_eq!(stdout, "", "{arguments:?}");
         assert_eq!(tree(out.path()).len(), before, "{arguments:?} left something behind");
     }
+}
+
+#[test]
+fn a_diagram_or_a_list_tells_what_could_not_be_read() {
+    let out = TempDir::new().unwrap();
+    fs::write(out.path().join("bad.pgn"), "[White \"A\"]\n\n1. e4 e5 2. Ke4 *\n").unwrap();
+    let told = "bad.pgn: game 1, line 3: `Ke4` is no legal move";
+    let (code, _, stderr) = run_in(out.path(), &["diagram", "bad.pgn", "--size", "8x8"], "");
+    assert_eq!(code, 3);
+    assert!(stderr.contains(told) && out.path().join("out/diagram.png").is_file(), "{stderr}");
+    let (code, stdout, stderr) = run_in(out.path(), &["inspect", "--positions", "bad.pgn"], "");
+    assert_eq!((code, stdout.lines().count()), (3, 4));
+    assert!(stderr.contains(told), "{stderr}");
+}
+
+#[test]
+fn a_part_that_the_game_does_not_have_is_skipped_and_said() {
+    let out = TempDir::new().unwrap();
+    let file = "games/topalov-shirov-1998.pgn";
+    let cases = [
+        (["--to", "10w"], "`--to 10w` is before the start, the first move is 47b"),
+        (["--from", "10w"], "`--from 10w` is before the start, the first move is 47b"),
+        (["--from", "90w"], "`--from 90w` is behind the end, 53b"),
+    ];
+    for (arguments, message) in cases {
+        let folder = out.path().to_str().unwrap();
+        let all = [&["render", file, "--size", "8x8", "-o", folder], &arguments[..]].concat();
+        let (code, _, stderr) = run(&all);
+        assert_eq!(code, 3, "{arguments:?}");
+        assert!(stderr.contains(message), "{arguments:?}: {stderr}");
+        assert!(!tree(out.path()).iter().any(|(path, _)| path.ends_with("frame_00000.png")));
+    }
+}
+
+#[test]
+fn pictures_of_an_earlier_run_do_not_stay() {
+    let out = TempDir::new().unwrap();
+    let game = "1. e4 e5 2. Nf3 Nc6 *";
+    run_in(out.path(), &["render", "-", "--size", "8x8"], game);
+    let folder = out.path().join("out/stdin/0001-white-black");
+    fs::write(folder.join("frame_mine.png"), "").unwrap();
+    assert_eq!(tree(&folder).len(), 7);
+    run_in(out.path(), &["render", "-", "--size", "8x8", "--from", "2w"], game);
+    let names: Vec<PathBuf> = tree(&folder).into_iter().map(|(path, _)| path).collect();
+    let expected = ["frame_00000.png", "frame_00001.png", "frame_mine.png", "game.json"];
+    assert_eq!(names, expected.map(|name| folder.join(name)));
+}
+
+#[test]
+fn no_name_leads_out_of_the_output_folder() {
+    let out = TempDir::new().unwrap();
+    let game = "[White \"../../x\"]\n[Black \"/etc\"]\n\n1. e4 *\n";
+    fs::write(out.path().join("...pgn"), game).unwrap();
+    let (code, _, stderr) =
+        run_in(out.path(), &["render", "...pgn", "--size", "8x8", "-o", "deep/out"], "");
+    assert_eq!(code, 0, "{stderr}");
+    assert!(out.path().join("deep/out/games/0001-x-etc/frame_00001.png").is_file());
+    assert_eq!(fs::read_dir(out.path().join("deep")).unwrap().count(), 1);
+}
+
+#[test]
+fn names_bring_no_control_characters_to_terminal_or_files() {
+    let out = TempDir::new().unwrap();
+    let game = "[White \"a\u{1b}[2Jb\u{202e}c\"]\n\n1. \u{7}e4 *\n";
+    let (_, stdout, stderr) = run_in(out.path(), &["inspect", "-"], game);
+    let (_, _, render) = run_in(out.path(), &["render", "-", "--size", "8x8"], game);
+    let manifest = fs::read_to_string(out.path().join("out/stdin/0001-a-2jb-c-black/game.json"));
+    for text in [stdout, stderr, render, manifest.unwrap()] {
+        assert!(!text.contains(['\u{1b}', '\u{202e}', '\u{7}']), "{text:?}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_signal_ends_the_run_cleanly() {
+    use std::process::Stdio;
+    for (signal, expected) in [("-INT", 130), ("-TERM", 143)] {
+        let out = TempDir::new().unwrap();
+        let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_lightsquare"))
+            .current_dir(env!("CARGO_MANIFEST_DIR"))
+            .args(["render", "games/hong-ivanchuk-2025.pgn", "--size", "200x120", "-o"])
+            .arg(out.path())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        let folder = out.path().join("hong-ivanchuk-2025/0001-hong-andrew-ivanchuk-vasyl");
+        while !folder.join("frame_00002.png").exists() {
+            assert!(child.try_wait().unwrap().is_none(), "it ended by itself");
+            std::thread::sleep(std::time::Duration::from_millis(5));
+        }
+        let pid = child.id().to_string();
+        assert!(
+            std::process::Command::new("kill").args([signal, &pid]).status().unwrap().success()
+        );
+        assert_eq!(child.wait().unwrap().code(), Some(expected));
+        let report = json(&out.path().join("hong-ivanchuk-2025/report.jsonl"));
+        assert_eq!(report["status"], "stopped");
+        let frames = json(&folder.join("game.json"))["frames"].as_array().unwrap().len();
+        assert_eq!(report["frames"], frames);
+        // As many pictures as the manifest says, and nothing else but the manifest.
+        assert_eq!(tree(&folder).len(), frames + 1);
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_is_followed_and_the_input_is_never_overwritten() {
+    let out = TempDir::new().unwrap();
+    let game = "[White \"A\"]\n\n1. e4 *\n";
+    fs::write(out.path().join("game.png"), game).unwrap();
+    let (code, _, stderr) =
+        run_in(out.path(), &["diagram", "game.png", "-o", "game.png", "--size", "8x8"], "");
+    assert_eq!(code, 1);
+    assert!(stderr.contains("game.png: is the file that is read"), "{stderr}");
+    assert_eq!(fs::read_to_string(out.path().join("game.png")).unwrap(), game);
+
+    fs::write(out.path().join("target.png"), "").unwrap();
+    std::os::unix::fs::symlink("target.png", out.path().join("link.png")).unwrap();
+    let (code, ..) =
+        run_in(out.path(), &["diagram", "game.png", "-o", "link.png", "--size", "8x8"], "");
+    assert_eq!(code, 0);
+    assert!(out.path().join("link.png").is_symlink());
+    assert!(fs::metadata(out.path().join("target.png")).unwrap().len() > 0);
 }

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 use lightsquare::assets::{PieceSet, thesis_set};
 use lightsquare::geometry::transform::{rotation_x, rotation_y, rotation_z, scale, translation};
 use lightsquare::geometry::{
-    ControlPoint, Csg, Cuboid, Lathe, Profile, Range, Ray, Solid, Spans, Sphere,
+    ControlPoint, Csg, Cuboid, Interval, Lathe, Profile, Ray, Solid, Spans, Sphere,
 };
 use proptest::prelude::*;
 use std::sync::LazyLock;
@@ -92,14 +92,32 @@ proptest! {
                 .iter()
                 .flat_map(|span| [span.enter.t, span.exit.t])
                 .find(|t| *t >= 0.0);
-            let nearest = solid.nearest(&ray, Range::AHEAD).map(|crossing| crossing.t);
+            let nearest = solid.nearest(&ray, Interval::AHEAD).map(|hit| hit.t);
             prop_assert_eq!(nearest.is_some(), first.is_some(), "{}", name);
             if let (Some(nearest), Some(first)) = (nearest, first) {
                 prop_assert!((nearest - first).abs() < 1e-9, "{name}: {nearest} and {first}");
-                let before = Range::up_to(first - 1e-6);
+                let before = Interval::up_to(first - 1e-6);
                 prop_assert!(!solid.blocks(&ray, before), "{name}");
-                prop_assert!(solid.blocks(&ray, Range::up_to(first + 1e-6)), "{name}");
+                prop_assert!(solid.blocks(&ray, Interval::up_to(first + 1e-6)), "{name}");
             }
+        }
+    }
+}
+
+/// Rays that random points never give: straight down on the axis, and along the axes of a box.
+#[test]
+fn rays_on_an_axis_meet_what_lies_on_it() {
+    for (name, solid) in solids() {
+        let bounds = solid.bounds();
+        let above = DVec3::new(0.0, bounds.max.y + 5.0, 0.0);
+        let ray = Ray { origin: above, direction: DVec3::NEG_Y };
+        let spans = spans(&solid, &ray);
+        for step in 0..400 {
+            let t = f64::from(step) * 0.0337;
+            let in_span = spans.iter().any(|span| span.enter.t < t && t < span.exit.t);
+            // Just beside the axis, the question needs no ray.
+            let inside = solid.contains(ray.at(t) + DVec3::new(1e-7, 0.0, 1e-7));
+            assert_eq!(in_span, inside, "{name} at {}", ray.at(t));
         }
     }
 }
@@ -117,7 +135,7 @@ fn flat_tops_have_no_holes() {
             let top = DVec3::new(0.8 * angle.cos(), height, 0.8 * angle.sin());
             let origin = DVec3::new(45.0, 15.0 + 0.001 * f64::from(step), -30.0);
             let ray = Ray { origin, direction: (top - origin).normalize() };
-            let hit = drum.nearest(&ray, Range::AHEAD).unwrap();
+            let hit = drum.nearest(&ray, Interval::AHEAD).unwrap();
             assert!(hit.normal.y > 0.99 && ray.at(hit.t).distance(top) < 1e-9, "{top}");
         }
     }

@@ -2,7 +2,8 @@
 
 use lightsquare::game::{Game, Scanner};
 use lightsquare::notation::{Color, Role, Square};
-use lightsquare::timeline::{Film, Frame, Mover, Timeline};
+use lightsquare::timeline::{Film, Frame, Mover, Spot, Timeline};
+use std::collections::BTreeMap;
 
 fn game(text: &str) -> Game {
     let scanned = Scanner::new(text.as_bytes()).next().unwrap().unwrap();
@@ -93,6 +94,14 @@ fn parts_of_a_game_keep_identities() {
 }
 
 #[test]
+fn a_position_that_comes_back_is_the_same_picture() {
+    let game = game("1. Nf3 Nf6 2. Ng1 Ng8 *");
+    let timeline = stills(&game);
+    assert!(timeline.frame(4).shows_the_same(&timeline.frame(0)));
+    assert!(!timeline.frame(3).shows_the_same(&timeline.frame(0)));
+}
+
+#[test]
 fn sliders_glide_and_knights_hop() {
     let pawn = halfway(&game("1. e4 *"));
     let mover = moving(&pawn, Role::Pawn);
@@ -159,23 +168,37 @@ fn a_promoted_pawn_stays_who_it_was() {
     assert_eq!(last.identities.get(Square::E8), Square::E7);
 }
 
+/// Where each piece is, by identity.
+fn places(frame: &Frame) -> BTreeMap<Square, Spot> {
+    let standing =
+        frame.placement.iter().map(|(square, _)| (frame.identities.get(square), Spot::on(square)));
+    standing.chain(frame.movers.iter().map(|mover| (mover.identity, mover.spot))).collect()
+}
+
 #[test]
-fn nothing_jumps_between_frames() {
+fn no_piece_jumps_or_vanishes_but_a_captured_one() {
     let game = game("1. e4 d5 2. exd5 Nf6 3. Nf3 Nxd5 4. Bc4 e6 5. O-O *");
     let timeline = film(&game);
-    let mut last: Vec<Mover> = Vec::new();
-    for index in 0..timeline.frames() {
-        let frame = timeline.frame(index);
-        for mover in &frame.movers {
-            let before = last.iter().find(|other| other.identity == mover.identity);
-            if let Some(before) = before {
-                let (a, b) = (before.spot, mover.spot);
-                let far = (a.file - b.file).hypot(a.rank - b.rank).hypot(a.height - b.height);
-                assert!(far < 1.5, "{far} squares in frame {index}");
+    let mut last = places(&timeline.frame(0));
+    assert_eq!(last.len(), 32);
+    let mut vanished = Vec::new();
+    for index in 1..timeline.frames() {
+        let now = places(&timeline.frame(index));
+        for (identity, a) in &last {
+            match now.get(identity) {
+                None => vanished.push((*identity, *a)),
+                Some(b) => {
+                    let far = (a.file - b.file).hypot(a.rank - b.rank).hypot(a.height - b.height);
+                    assert!(far < 1.0, "{identity} by {far} squares in frame {index}");
+                }
             }
         }
-        last = frame.movers;
+        last = now;
     }
+    let identities: Vec<Square> = vanished.iter().map(|(identity, _)| *identity).collect();
+    assert_eq!(identities, [Square::D7, Square::E2]);
+    // They have left the board when they are gone.
+    assert!(vanished.iter().all(|(_, spot)| spot.height > 3.0));
 }
 
 #[test]

@@ -236,32 +236,43 @@ fn eye(side: f64) -> Csg {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Solid;
+    use crate::geometry::{Bounds, Interval, Ray, Solid};
 
+    /// The highest point that rays from above find, in millimetres.
     fn millimetres(piece: &Csg) -> f64 {
-        piece.bounds().max.y / MILLIMETRE
+        let steps = -40..=40;
+        let grid = steps.clone().flat_map(|x| steps.clone().map(move |z| (x, z)));
+        let hits = grid.filter_map(|(x, z)| {
+            let origin = DVec3::new(f64::from(x), 250.0, f64::from(z)) * 0.04;
+            let ray = Ray { origin, direction: DVec3::NEG_Y };
+            piece.nearest(&ray, Interval::AHEAD).map(|hit| ray.at(hit.t).y)
+        });
+        hits.fold(0.0, f64::max) / MILLIMETRE
     }
 
     /// Diameter of what stands on the board, in world units.
     fn base(piece: &Csg) -> f64 {
-        let bounds = piece.bounds();
-        bounds.max.z - bounds.min.z
+        let Bounds { min, max } = piece.bounds();
+        max.z - min.z
+    }
+
+    /// The farthest that anything reaches from the axis along x or z: a knight's muzzle too.
+    fn reach(piece: &Csg) -> f64 {
+        let Bounds { min, max } = piece.bounds();
+        max.x.max(-min.x).max(max.z).max(-min.z)
+    }
+
+    fn all(set: &PieceSet) -> [&Csg; 6] {
+        [&set.king, &set.queen, &set.bishop, &set.knight, &set.rook, &set.pawn]
     }
 
     #[test]
     fn heights_and_bases_follow_the_equipment_standard() {
         let set = thesis_set(4).unwrap();
-        let pieces = [
-            (&set.king, 95.0),
-            (&set.queen, 85.0),
-            (&set.bishop, 70.0),
-            (&set.knight, 60.0),
-            (&set.rook, 55.0),
-            (&set.pawn, 50.0),
-        ];
-        for (piece, height) in pieces {
-            assert!((millimetres(piece) - height).abs() < 0.01 * height);
-            let share = base(piece) / piece.bounds().max.y;
+        for (piece, height) in all(&set).into_iter().zip([95.0, 85.0, 70.0, 60.0, 55.0, 50.0]) {
+            let found = millimetres(piece);
+            assert!((found - height).abs() < 0.01 * height, "{found} is not {height}");
+            let share = base(piece) / (height * MILLIMETRE);
             assert!((0.40..=0.51).contains(&share), "{height} mm: base {share}");
         }
         let share_of_square = base(&set.king) / 4.0;
@@ -271,7 +282,9 @@ mod tests {
     #[test]
     fn a_diagonal_mover_clears_any_two_neighbours() {
         let set = thesis_set(4).unwrap();
-        let widest = (base(&set.king) + base(&set.queen)) / 2.0;
+        let mut reaches = all(&set).map(reach);
+        reaches.sort_by(f64::total_cmp);
+        let widest = reaches[4] + reaches[5];
         assert!(widest < 8.0_f64.sqrt(), "{widest}");
     }
 }

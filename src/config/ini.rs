@@ -24,7 +24,7 @@ pub fn read(text: &str) -> (Vec<Section<'_>>, Vec<Fault>) {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     for (index, line) in text.lines().enumerate() {
         let number = index + 1;
-        let content = line.split([';', '#']).next().unwrap_or_default().trim();
+        let content = without_comment(line).trim();
         if content.is_empty() {
             continue;
         }
@@ -44,4 +44,13 @@ pub fn read(text: &str) -> (Vec<Section<'_>>, Vec<Fault>) {
         faults.push(Fault { line: number, message: format!("`{content}` {complaint}") });
     }
     (sections, faults)
+}
+
+/// The part of a line before a `;` or `#` that stands first or behind a blank. (Within a value,
+/// a path say, they are its own.)
+fn without_comment(line: &str) -> &str {
+    let begins = |(at, _): &(usize, &str)| {
+        line[..*at].is_empty() || line[..*at].ends_with(char::is_whitespace)
+    };
+    line.match_indices([';', '#']).find(begins).map_or(line, |(at, _)| &line[..at])
 }

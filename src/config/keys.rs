@@ -79,7 +79,9 @@ pub fn interpret(document: &[Section], faults: &mut Vec<Fault>) -> Config {
             });
             continue;
         }
-        let light = name.strip_prefix("light").and_then(|number| number.parse().ok());
+        let light = name
+            .strip_prefix("light")
+            .and_then(|digits| digits.parse().ok().filter(|n: &u32| n.to_string() == digits));
         match (name.as_str(), light) {
             ("globalsettings", _) => read_section(section, &GLOBAL_KEYS, &mut global, faults),
             ("camera", _) => {
@@ -147,13 +149,14 @@ fn light_sections(
     if count.is_none() && sections.is_empty() {
         return;
     }
-    let count = count.unwrap_or(config.lights.len() as u32);
+    let highest = sections.iter().map(|(_, number, _)| number.saturating_add(1)).max();
+    let count = count.or(highest).unwrap_or_default().min(MAX_LIGHTS);
     let mut lights: Vec<Option<Light>> = vec![None; count as usize];
     let mut described = vec![false; count as usize];
     for (line, number, section) in sections {
         let mut fault = |message| faults.push(Fault { line, message });
         let Some(light) = lights.get_mut(number as usize) else {
-            fault(format!("there is a [Light{number}], but LightCount is {count}"));
+            fault(format!("there is a [Light{number}], but there are {count} lights"));
             continue;
         };
         described[number as usize] = true;
@@ -166,7 +169,7 @@ fn light_sections(
     for (number, _) in described.iter().enumerate().filter(|(_, described)| !**described) {
         faults.push(Fault {
             line: 0,
-            message: format!("LightCount is {count}, but there is no section [Light{number}]"),
+            message: format!("there are {count} lights, but there is no section [Light{number}]"),
         });
     }
     config.lights = lights.into_iter().flatten().collect();
@@ -232,7 +235,7 @@ mod tests {
             ("[Camera]\n\nZRot", "line 3: `ZRot` is neither a [section] nor a key=value"),
             (
                 "[GlobalSettings]\nLightCount=2\n[Light0]\nPosition=0,1,0\nColor=1,1,1",
-                "LightCount is 2, but there is no section [Light1]",
+                "there are 2 lights, but there is no section [Light1]",
             ),
             (
                 "[Light0]\nPosition=0,1,0\n[Light1]\nPosition=0,1,0\nColor=1,1,1",
@@ -240,7 +243,7 @@ mod tests {
             ),
             (
                 "[GlobalSettings]\nLightCount=0\n[Light0]\nPosition=0,1,0\nColor=1,1,1",
-                "line 3: there is a [Light0], but LightCount is 0",
+                "line 3: there is a [Light0], but there are 0 lights",
             ),
         ];
         for (text, message) in cases {

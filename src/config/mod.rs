@@ -5,7 +5,7 @@ mod keys;
 mod nearest;
 
 pub use keys::MAX_SIDE;
-pub use nearest::nearest;
+use nearest::nearest;
 
 use glam::DVec3;
 use serde::Serialize;
@@ -97,7 +97,8 @@ fn listed(faults: &[Fault]) -> String {
 impl Config {
     /// Reads the text of a `config.ini`; what it does not mention keeps its default.
     ///
-    /// Names of sections and keys count without their case; `;` and `#` begin a comment.
+    /// Names of sections and keys count without their case; a `;` or `#` at the
+    /// beginning of a line or behind a blank begins a comment.
     ///
     /// # Errors
     /// Every line that cannot be used: no section or key of that name, a value out of its range,

@@ -15,7 +15,7 @@ mod start;
 mod word;
 
 pub use scan::{ScannedGame, Scanner};
-pub use select::{Moment, ParseMomentError, ParseSelectionError, Selection};
+pub use select::{Absent, Moment, ParseMomentError, ParseSelectionError, Selection};
 pub use source::{Source, SourceError};
 pub use word::{printable, shortened};
 
@@ -134,9 +134,27 @@ impl Game {
         }
     }
 
-    /// The move that led to the position after `ply` half-moves; none leads to the start.
+    /// The name of the position after `ply` half-moves: `17w`, or `start`.
+    pub fn moment_name(&self, ply: usize) -> String {
+        match ply {
+            0 => "start".to_owned(),
+            1 => self.first_move(),
+            _ => {
+                let before = &self.plies[ply - 2].after;
+                format!("{}{}", before.fullmoves(), before.turn().char())
+            }
+        }
+    }
+
+    /// The name of the first move that the game can have: `1w`, or from a FEN another.
+    pub fn first_move(&self) -> String {
+        format!("{}{}", self.start.fullmoves, self.start.turn.char())
+    }
+
+    /// The move that led to the position after `ply` half-moves, if there are that many; none leads
+    /// to the start.
     pub fn san(&self, ply: usize) -> Option<&str> {
-        ply.checked_sub(1).map(|index| self.plies[index].san.as_str())
+        Some(self.plies.get(ply.checked_sub(1)?)?.san.as_str())
     }
 }
 

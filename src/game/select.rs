@@ -55,7 +55,9 @@ pub enum Moment {
 
 /// Why a text names no position.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("`{0}` is no position, expected a move as in 17w or 17b, a number of half-moves, or end")]
+#[error(
+    "`{0}` is no position, expected a move as in 17w or 17b, a number of half-moves, start or end"
+)]
 pub struct ParseMomentError(String);
 
 impl FromStr for Moment {
@@ -89,20 +91,30 @@ impl std::fmt::Display for Moment {
     }
 }
 
+/// Where a moment lies that is no position of a game.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Absent {
+    BeforeTheStart,
+    BehindTheEnd,
+}
+
 impl Moment {
-    /// The number of half-moves after which `game` is there, if it gets there.
-    pub fn ply(self, game: &Game) -> Option<usize> {
+    /// The number of half-moves after which `game` is there.
+    ///
+    /// # Errors
+    /// When the game begins later, or ends earlier.
+    pub fn ply(self, game: &Game) -> Result<usize, Absent> {
         let ply = match self {
-            Moment::Ply(ply) => ply,
-            Moment::End => game.plies.len(),
+            Moment::Ply(ply) => ply as u64,
+            Moment::End => game.plies.len() as u64,
             Moment::After(number, color) => {
                 let first =
                     2 * u64::from(game.start.fullmoves.get()) + game.start.turn.fold_wb(0, 1);
                 let after = 2 * u64::from(number) + color.fold_wb(1, 2);
-                usize::try_from(after.checked_sub(first)?).ok()?
+                after.checked_sub(first).ok_or(Absent::BeforeTheStart)?
             }
         };
-        (ply <= game.plies.len()).then_some(ply)
+        usize::try_from(ply).ok().filter(|ply| *ply <= game.plies.len()).ok_or(Absent::BehindTheEnd)
     }
 }
 

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader};
 use std::path::Path;
 
-use super::{Game, Problem, Scanner};
+use super::{Game, Problem, Scanner, printable};
 
 /// A file of games that is open, or the standard input.
 pub struct Source {
@@ -44,7 +44,7 @@ impl Source {
     /// # Errors
     /// When there is no such file, or it is a folder, empty, or no text that can be read.
     pub fn open(path: &Path) -> Result<Source, SourceError> {
-        let name = path.display().to_string();
+        let name = printable(&path.to_string_lossy());
         let failed = |error: io::Error| match error.kind() {
             io::ErrorKind::NotFound => SourceError::Missing { name: name.clone() },
             io::ErrorKind::IsADirectory => SourceError::Folder { name: name.clone() },

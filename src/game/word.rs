@@ -41,7 +41,7 @@ pub fn classify(word: &str) -> impl Iterator<Item = Word> {
         _ if !numbered || word.is_empty() => None,
         Ok(number) => Some(Word::Number { number, dots }),
         // `...e5`, but not `.e5`, which has lost something.
-        Err(_) if digits.is_empty() && (dots > 1 || after.is_empty()) => Some(Word::Dots),
+        Err(_) if digits.is_empty() && (dots > 1 || after.is_empty()) => Some(Word::Dots(dots)),
         Err(_) => Some(Word::Unknown),
     };
     let rest = if numbered { after } else { word };

@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DVec3};
 
-use super::{Range, Ray};
+use super::{Interval, Ray};
 
 /// An axis-aligned box, from `min` to `max`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,11 +49,12 @@ impl Bounds {
     /// The part of `range` in which `ray` is inside the box, or `None`. Its ends are rounded: a
     /// surface that touches the box may be crossed a hair outside.
     ///
-    /// A direction component of zero divides to ±infinity, which is right; on the very face it
-    /// divides to NaN, which `min` and `max` pass over.
-    pub fn clip(&self, ray: &Ray, range: Range) -> Option<Range> {
-        let low = (self.min - ray.origin) / ray.direction;
-        let high = (self.max - ray.origin) / ray.direction;
+    /// A ray that lies within a face of the box counts as outside.
+    pub fn clip(&self, ray: &Ray, range: Interval) -> Option<Interval> {
+        // Zero turns into an infinity of either sign, which is right.
+        let inverse = ray.direction.recip();
+        let low = (self.min - ray.origin) * inverse;
+        let high = (self.max - ray.origin) * inverse;
         let mut clipped = range;
         for axis in 0..3 {
             clipped.min = low[axis].min(high[axis]).max(clipped.min);
@@ -71,10 +72,10 @@ mod tests {
     fn a_ray_along_an_axis_is_clipped_by_that_axis_alone() {
         let bounds = Bounds { min: DVec3::ZERO, max: DVec3::ONE };
         let ray = |x, direction| Ray { origin: DVec3::new(x, 0.5, -2.0), direction };
-        let clipped = bounds.clip(&ray(0.5, DVec3::Z), Range::AHEAD);
-        assert_eq!(clipped, Some(Range { min: 2.0, max: 3.0 }));
-        assert_eq!(bounds.clip(&ray(1.5, DVec3::Z), Range::AHEAD), None);
-        assert_eq!(bounds.clip(&ray(0.5, DVec3::NEG_Z), Range::AHEAD), None);
-        assert_eq!(bounds.clip(&ray(0.5, DVec3::Z), Range::up_to(1.0)), None);
+        let clipped = bounds.clip(&ray(0.5, DVec3::Z), Interval::AHEAD);
+        assert_eq!(clipped, Some(Interval { min: 2.0, max: 3.0 }));
+        assert_eq!(bounds.clip(&ray(1.5, DVec3::Z), Interval::AHEAD), None);
+        assert_eq!(bounds.clip(&ray(0.5, DVec3::NEG_Z), Interval::AHEAD), None);
+        assert_eq!(bounds.clip(&ray(0.5, DVec3::Z), Interval::up_to(1.0)), None);
     }
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
 
-use super::{Bounds, Crossing, Placed, Range, Ray, Solid, Span, Spans, nearest_end};
+use super::{Bounds, Hit, Interval, Placed, Ray, Solid, Span, Spans, nearest_end};
 
 /// A tree of solids; a line is combined span by span from the leaves up (Turek 2008, 3.7.6).
 #[derive(Clone)]
@@ -86,7 +86,7 @@ impl Solid for Csg {
     }
 
     fn spans(&self, ray: &Ray, spans: &mut Spans) {
-        if self.bounds.clip(ray, Range::WHOLE_LINE).is_none() {
+        if self.bounds.clip(ray, Interval::WHOLE_LINE).is_none() {
             return;
         }
         match &self.node {
@@ -102,9 +102,15 @@ impl Solid for Csg {
         }
     }
 
-    fn nearest(&self, ray: &Ray, range: Range) -> Option<Crossing> {
+    fn nearest(&self, ray: &Ray, range: Interval) -> Option<Hit> {
         match &self.node {
             Node::Leaf(solid) => solid.nearest(ray, range),
+            // Where the second solid is out of the way, only an intersection misses it.
+            Node::Pair(Operation::Union | Operation::Difference, pair)
+                if pair[1].bounds.clip(ray, range).is_none() =>
+            {
+                pair[0].nearest(ray, range)
+            }
             Node::Pair(..) => nearest_end(self, ray, range),
         }
     }
@@ -114,15 +120,13 @@ impl Solid for Csg {
 /// difference cuts belongs to the second solid, turned inside out.
 fn combine(operation: Operation, first: &Spans, second: &Spans, spans: &mut Spans) {
     let inside_out = matches!(operation, Operation::Difference);
-    let turned = |end: Crossing| Crossing {
-        normal: if inside_out { -end.normal } else { end.normal },
-        ..end
-    };
+    let turned =
+        |end: Hit| Hit { normal: if inside_out { -end.normal } else { end.normal }, ..end };
     let ends = |list: &Spans, index: usize| {
         list.get(index / 2).map(|span| [span.enter, span.exit][index % 2])
     };
     let [mut i, mut j] = [0, 0];
-    let mut enter: Option<Crossing> = None;
+    let mut enter: Option<Hit> = None;
     loop {
         let end = match (ends(first, i), ends(second, j)) {
             (None, None) => break,
@@ -145,7 +149,7 @@ fn combine(operation: Operation, first: &Spans, second: &Spans, spans: &mut Span
     }
 }
 
-fn take(index: &mut usize, end: Crossing) -> Crossing {
+fn take(index: &mut usize, end: Hit) -> Hit {
     *index += 1;
     end
 }

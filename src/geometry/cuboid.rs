@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{Bounds, Crossing, Ray, Solid, Span, Spans};
+use super::{Bounds, Hit, Ray, Solid, Span, Spans};
 
 /// A rectangular box from `min` to `max` (turn it by placing it: [`super::Placed`]).
 #[derive(Clone, Copy, Debug)]
@@ -28,8 +28,8 @@ impl Solid for Cuboid {
     }
 
     fn spans(&self, ray: &Ray, spans: &mut Spans) {
-        let mut enter = Crossing { t: f64::NEG_INFINITY, normal: DVec3::ZERO };
-        let mut exit = Crossing { t: f64::INFINITY, normal: DVec3::ZERO };
+        let mut enter = Hit { t: f64::NEG_INFINITY, normal: DVec3::ZERO };
+        let mut exit = Hit { t: f64::INFINITY, normal: DVec3::ZERO };
         for axis in 0..3 {
             let (origin, direction) = (ray.origin[axis], ray.direction[axis]);
             if direction == 0.0 {
@@ -39,8 +39,8 @@ impl Solid for Cuboid {
                 continue;
             }
             let outward = DVec3::AXES[axis];
-            let low = Crossing { t: (self.min[axis] - origin) / direction, normal: -outward };
-            let high = Crossing { t: (self.max[axis] - origin) / direction, normal: outward };
+            let low = Hit { t: (self.min[axis] - origin) / direction, normal: -outward };
+            let high = Hit { t: (self.max[axis] - origin) / direction, normal: outward };
             let (near, far) = if direction > 0.0 { (low, high) } else { (high, low) };
             if near.t > enter.t {
                 enter = near;

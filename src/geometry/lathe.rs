@@ -8,7 +8,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{Bounds, Crossing, Profile, Range, Ray, Solid, Span, Spans};
+use super::{Bounds, Hit, Interval, Profile, Ray, Solid, Span, Spans};
 
 /// A profile turned about the y axis; its heights are y.
 pub struct Lathe {
@@ -23,7 +23,7 @@ struct Segment {
     to: DVec2,
     /// Outward normal (nu, nv) of length 1.
     normal: DVec2,
-    /// Distance of the segment's line from the origin of (u, v).
+    /// Distance of the segment's line from the origin of (u, v), with the normal's sign.
     w: f64,
 }
 
@@ -38,7 +38,7 @@ struct Node {
     segment: usize,
 }
 
-/// Room for rounding in the bounds of nodes, in units of the profile.
+/// Room for rounding in the bounds of nodes, in units of the profile (and of the ray, about 1).
 const MARGIN: f64 = 1e-9;
 
 impl Lathe {
@@ -65,15 +65,15 @@ impl Lathe {
         Lathe { segments, tree, bounds }
     }
 
-    /// Calls `found(t, segment)` for each crossing of the line of `ray` within `range`, in no
+    /// Calls `found(t, segment)` for each hit of the line of `ray` within `range`, in no
     /// order; `found` gives back how far it still wants to be told.
-    fn crossings<'a>(
+    fn hits<'a>(
         &'a self,
         ray: &Ray,
-        range: Range,
+        range: Interval,
         mut found: impl FnMut(f64, &'a Segment) -> f64,
     ) {
-        // The clipped range is finite and culls nodes, which have a margin; crossings are held
+        // The clipped range is finite and culls nodes, which have a margin; hits are held
         // against the range itself.
         let Some(mut within) = self.bounds.clip(ray, range) else {
             return;
@@ -163,7 +163,7 @@ impl AxisLine {
         self.pp + t * (2.0 * self.pq + t * self.qq)
     }
 
-    fn may_meet(&self, node: &Node, range: Range) -> bool {
+    fn may_meet(&self, node: &Node, range: Interval) -> bool {
         let (mut start, mut end) = (range.min, range.max);
         if self.dy == 0.0 {
             if self.oy < node.min_v || self.oy > node.max_v {
@@ -195,7 +195,8 @@ impl AxisLine {
             } else {
                 (self.u2(t).max(0.0).sqrt() - segment.from.x) / du
             };
-            (0.0..1.0).contains(&along)
+            // The next segment has the second end; behind one that ends on the axis there is none.
+            (0.0..1.0).contains(&along) || along == 1.0 && segment.to.x == 0.0
         };
         if nu == 0.0 {
             // A flat ring: the plane v = w / nv.
@@ -247,9 +248,9 @@ impl Solid for Lathe {
     }
 
     fn spans(&self, ray: &Ray, spans: &mut Spans) {
-        let mut ends: smallvec::SmallVec<[Crossing; 8]> = smallvec::SmallVec::new();
-        self.crossings(ray, Range::WHOLE_LINE, |t, segment| {
-            ends.push(Crossing { t, normal: segment.normal_at(ray.at(t)) });
+        let mut ends: smallvec::SmallVec<[Hit; 8]> = smallvec::SmallVec::new();
+        self.hits(ray, Interval::WHOLE_LINE, |t, segment| {
+            ends.push(Hit { t, normal: segment.normal_at(ray.at(t)) });
             f64::INFINITY
         });
         ends.sort_by(|a, b| a.t.total_cmp(&b.t));
@@ -264,14 +265,14 @@ impl Solid for Lathe {
         }
     }
 
-    fn nearest(&self, ray: &Ray, range: Range) -> Option<Crossing> {
+    fn nearest(&self, ray: &Ray, range: Interval) -> Option<Hit> {
         let mut nearest: Option<(f64, &Segment)> = None;
-        self.crossings(ray, range, |t, segment| {
+        self.hits(ray, range, |t, segment| {
             if nearest.is_none_or(|(best, _)| t < best) {
                 nearest = Some((t, segment));
             }
             t
         });
-        nearest.map(|(t, segment)| Crossing { t, normal: segment.normal_at(ray.at(t)) })
+        nearest.map(|(t, segment)| Hit { t, normal: segment.normal_at(ray.at(t)) })
     }
 }

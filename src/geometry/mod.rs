@@ -20,7 +20,7 @@ pub use cuboid::Cuboid;
 pub use curve::{ControlPoint, Profile, ProfileError};
 pub use lathe::Lathe;
 pub use placed::Placed;
-pub use ray::{Crossing, Range, Ray, Span, Spans};
+pub use ray::{Hit, Interval, Ray, Span, Spans};
 pub use sphere::Sphere;
 
 use glam::DVec3;
@@ -37,22 +37,22 @@ pub trait Solid: Send + Sync {
     /// in ascending order and without overlap, with outward normals at their ends.
     fn spans(&self, ray: &Ray, spans: &mut Spans);
 
-    /// The nearest crossing of the surface with a distance inside `range`.
-    fn nearest(&self, ray: &Ray, range: Range) -> Option<Crossing> {
+    /// The nearest hit of the surface with a distance inside `range`.
+    fn nearest(&self, ray: &Ray, range: Interval) -> Option<Hit> {
         nearest_end(self, ray, range)
     }
 
     /// Whether the surface is crossed anywhere inside `range`.
-    fn blocks(&self, ray: &Ray, range: Range) -> bool {
+    fn blocks(&self, ray: &Ray, range: Interval) -> bool {
         self.nearest(ray, range).is_some()
     }
 }
 
 /// The nearest end of a span of `solid` within `range`.
-fn nearest_end(solid: &(impl Solid + ?Sized), ray: &Ray, range: Range) -> Option<Crossing> {
+fn nearest_end(solid: &(impl Solid + ?Sized), ray: &Ray, range: Interval) -> Option<Hit> {
     // The clipped range only rejects: its ends are rounded, and a face may lie on them.
     solid.bounds().clip(ray, range)?;
     let mut spans = Spans::new();
     solid.spans(ray, &mut spans);
-    spans.iter().flat_map(|span| [span.enter, span.exit]).find(|crossing| range.holds(crossing.t))
+    spans.iter().flat_map(|span| [span.enter, span.exit]).find(|hit| range.holds(hit.t))
 }

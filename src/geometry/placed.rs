@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3};
 
-use super::{Bounds, Crossing, Range, Ray, Solid, Span, Spans};
+use super::{Bounds, Hit, Interval, Ray, Solid, Span, Spans};
 
 /// A solid in another place: `transform` leads from its own space to the space round it.
 #[derive(Clone)]
@@ -39,8 +39,8 @@ impl Placed {
         }
     }
 
-    fn carried(&self, crossing: Crossing) -> Crossing {
-        Crossing { t: crossing.t, normal: (self.normals * crossing.normal).normalize() }
+    fn carried(&self, hit: Hit) -> Hit {
+        Hit { t: hit.t, normal: (self.normals * hit.normal).normalize() }
     }
 }
 
@@ -64,13 +64,13 @@ impl Solid for Placed {
         );
     }
 
-    fn nearest(&self, ray: &Ray, range: Range) -> Option<Crossing> {
+    fn nearest(&self, ray: &Ray, range: Interval) -> Option<Hit> {
         self.bounds.clip(ray, range)?;
-        let crossing = self.solid.nearest(&self.own_ray(ray), range)?;
-        Some(self.carried(crossing))
+        let hit = self.solid.nearest(&self.own_ray(ray), range)?;
+        Some(self.carried(hit))
     }
 
-    fn blocks(&self, ray: &Ray, range: Range) -> bool {
+    fn blocks(&self, ray: &Ray, range: Interval) -> bool {
         self.bounds.clip(ray, range).is_some() && self.solid.blocks(&self.own_ray(ray), range)
     }
 }

@@ -22,21 +22,21 @@ impl Ray {
 
 /// The distances that count, both ends included; empty when `min > max`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Range {
+pub struct Interval {
     pub min: f64,
     pub max: f64,
 }
 
-impl Range {
+impl Interval {
     /// All that lies in front of a ray's origin.
-    pub const AHEAD: Range = Range { min: 0.0, max: f64::INFINITY };
+    pub const AHEAD: Interval = Interval { min: 0.0, max: f64::INFINITY };
 
     /// Everything, behind the origin too.
-    pub const WHOLE_LINE: Range = Range { min: f64::NEG_INFINITY, max: f64::INFINITY };
+    pub const WHOLE_LINE: Interval = Interval { min: f64::NEG_INFINITY, max: f64::INFINITY };
 
-    /// Everything in front of the origin and nearer than `max`.
-    pub fn up_to(max: f64) -> Range {
-        Range { min: 0.0, max }
+    /// Everything in front of the origin up to `max`.
+    pub fn up_to(max: f64) -> Interval {
+        Interval { min: 0.0, max }
     }
 
     /// Whether `t` lies inside.
@@ -47,7 +47,7 @@ impl Range {
 
 /// A place where a ray passes through a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Crossing {
+pub struct Hit {
     /// Distance in lengths of the ray's direction.
     pub t: f64,
     /// Outward normal of length 1.
@@ -57,8 +57,8 @@ pub struct Crossing {
 /// A stretch of a ray inside a solid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Span {
-    pub enter: Crossing,
-    pub exit: Crossing,
+    pub enter: Hit,
+    pub exit: Hit,
 }
 
 /// Spans in ascending order; most solids give one or two.

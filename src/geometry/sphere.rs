@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{Bounds, Crossing, Ray, Solid, Span, Spans};
+use super::{Bounds, Hit, Ray, Solid, Span, Spans};
 
 /// All points within `radius` of `center`.
 #[derive(Clone, Copy, Debug)]
@@ -30,10 +30,7 @@ impl Solid for Sphere {
             return;
         }
         let root = discriminant.sqrt();
-        let crossing = |t: f64| Crossing { t, normal: (ray.at(t) - self.center) / self.radius };
-        spans.push(Span {
-            enter: crossing((-half_b - root) / a),
-            exit: crossing((-half_b + root) / a),
-        });
+        let hit = |t: f64| Hit { t, normal: (ray.at(t) - self.center) / self.radius };
+        spans.push(Span { enter: hit((-half_b - root) / a), exit: hit((-half_b + root) / a) });
     }
 }

@@ -3,8 +3,8 @@
 use std::io::Write;
 use std::path::PathBuf;
 
-use super::{JobError, shown};
-use crate::game::{Game, Selection, Source};
+use super::{JobError, Progress, say_problems, shown};
+use crate::game::{Game, Selection, Source, shortened};
 use crate::notation::Color;
 
 /// Which games to tell of, and how.
@@ -23,17 +23,22 @@ pub struct InspectJob {
 ///
 /// # Errors
 /// Input that cannot be read, a selection without games, or what `out` gives.
-pub fn inspect(job: &InspectJob, out: &mut dyn Write) -> Result<usize, JobError> {
+pub fn inspect(
+    job: &InspectJob,
+    progress: &dyn Progress,
+    out: &mut dyn Write,
+) -> Result<usize, JobError> {
     let mut partial = 0;
     for input in &job.inputs {
         let file = shown(input);
+        let games = Source::open(input)?.games();
         if job.positions {
             writeln!(out, "game\tply\tsan\tfen\twhite\tblack").map_err(JobError::Write)?;
         } else if job.inputs.len() > 1 {
             writeln!(out, "{file}").map_err(JobError::Write)?;
         }
         let (mut seen, mut selected) = (0, 0);
-        for game in Source::open(input)?.games() {
+        for game in games {
             let game = game?;
             seen += 1;
             if job.selection.as_ref().is_some_and(|selection| !selection.contains(game.number)) {
@@ -41,7 +46,12 @@ pub fn inspect(job: &InspectJob, out: &mut dyn Write) -> Result<usize, JobError>
             }
             selected += 1;
             partial += usize::from(!game.is_whole());
-            let written = if job.positions { positions(&game, out) } else { line(&game, out) };
+            let written = if job.positions {
+                say_problems(&file, &game, progress);
+                positions(&game, out)
+            } else {
+                line(&game, out)
+            };
             written.map_err(JobError::Write)?;
         }
         if selected == 0 {
@@ -53,12 +63,13 @@ pub fn inspect(job: &InspectJob, out: &mut dyn Write) -> Result<usize, JobError>
 }
 
 fn line(game: &Game, out: &mut dyn Write) -> std::io::Result<()> {
-    let [white, black] = [Color::White, Color::Black].map(|color| game.player(color));
+    let [white, black] =
+        [Color::White, Color::Black].map(|color| shortened(game.player(color), 60));
     let (number, result, plies) = (game.number, &game.result, game.plies.len());
     write!(out, "{number:>5}  {white} – {black}  {result}  {plies} plies")?;
-    for (name, value) in ["Event", "Date"].map(|name| (name, game.tag(name))) {
-        if let Some(value) = value {
-            write!(out, "  {name} {value}")?;
+    for name in ["Event", "Date"] {
+        if let Some(value) = game.tag(name) {
+            write!(out, "  {name} {}", shortened(value, 60))?;
         }
     }
     writeln!(out)?;

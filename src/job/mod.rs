@@ -1,7 +1,7 @@
 //! What to do: render games, one position, or say what a file holds.
 //!
 //! A job is given typed and checked settings, tells a [`Progress`] how far it is, and gives back
-//! a summary or its error. It never prints.
+//! a summary or its error. It writes where it is told to, and never prints.
 
 mod diagram;
 mod inspect;
@@ -9,15 +9,15 @@ mod render;
 mod report;
 mod studio;
 
-pub use diagram::{DiagramJob, Subject, diagram};
+pub use diagram::{DiagramJob, DiagramSummary, Subject, diagram};
 pub use inspect::{InspectJob, inspect};
 pub use render::{RenderJob, Summary, render};
 pub use studio::PictureSettings;
 
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use crate::game::{Moment, SourceError};
+use crate::game::{Game, Moment, SourceError, printable};
 use crate::geometry::ProfileError;
 use crate::output::OutputError;
 
@@ -30,12 +30,14 @@ pub enum JobError {
     Output(#[from] OutputError),
     #[error("{file}: none of the selected games is there, it has {games}")]
     NothingSelected { file: String, games: usize },
-    #[error(
-        "{file}: game {game} has no position {moment}, its last one is after {plies} half-moves"
-    )]
-    NoSuchMoment { file: String, game: usize, moment: Moment, plies: usize },
-    #[error("{file}: game {game} has no position that is certain, {problem}")]
-    NoPosition { file: String, game: usize, problem: String },
+    #[error("{file}: game {game} has no position {moment}, it goes from {start} to {end}")]
+    NoSuchMoment { file: String, game: usize, moment: Moment, start: String, end: String },
+    #[error("{file}: game {game} has no position that is certain")]
+    NoPosition { file: String, game: usize },
+    #[error("{}: is the file that is read, expected another one to write", path.display())]
+    OutputIsInput { path: PathBuf },
+    #[error("{file}: game {game} would take {frames} frames, expected at most {MAX_FRAMES}")]
+    TooLong { file: String, game: usize, frames: usize },
     #[error("the piece set cannot be built")]
     Set(#[from] ProfileError),
     #[error("{threads} threads cannot be started")]
@@ -48,6 +50,9 @@ pub enum JobError {
     Write(#[source] io::Error),
 }
 
+/// The most frames of one game: an hour at 240 a second, and a little more.
+pub const MAX_FRAMES: usize = 1_000_000;
+
 /// Who wants to know how far a job is, and may end it early.
 pub trait Progress: Sync {
     /// The job has read its input: so many frames are to come.
@@ -56,25 +61,22 @@ pub trait Progress: Sync {
     fn game(&self, name: &str);
     /// One more frame is written.
     fn frame_done(&self);
-    /// Something that the user should know at once.
-    fn warn(&self, text: &str);
+    /// Something that the user should know.
+    fn say(&self, text: &str);
     /// Something for those who asked for details.
     fn detail(&self, text: &str);
-    /// Whether to stop at the next frame.
+    /// Whether to stop at the next game or frame.
     fn is_cancelled(&self) -> bool;
 }
 
 /// A file's name as messages show it, `-` for the standard input.
-fn shown(path: &std::path::Path) -> String {
-    path.display().to_string()
+fn shown(path: &Path) -> String {
+    printable(&path.to_string_lossy())
 }
 
-/// Settings that every picture of a job shares, as they stand in the manifest.
-#[derive(serde::Serialize)]
-struct SettingsRecord<'a> {
-    version: &'static str,
-    config_file: Option<&'a PathBuf>,
-    antialiasing_rays_per_side: u32,
-    #[serde(flatten)]
-    config: &'a crate::config::Config,
+/// Tells what could not be read of a game.
+fn say_problems(file: &str, game: &Game, progress: &dyn Progress) {
+    for problem in &game.problems {
+        progress.say(&format!("{file}: game {}, {problem}", game.number));
+    }
 }

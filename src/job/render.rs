@@ -1,13 +1,16 @@
 //! Whole games, as numbered pictures in folders.
 
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
-use super::report::{FrameRow, Manifest, ReportLine, Status, problems, tags};
+use super::report::{FrameRow, Manifest, ReportLine, Status, tags, texts};
 use super::studio::{PictureSettings, Studio};
-use super::{JobError, Progress, shown};
-use crate::game::{Game, Moment, Problem, Selection, Source};
+use super::{JobError, MAX_FRAMES, Progress, say_problems, shown};
+use crate::game::{Absent, Game, Moment, Problem, Selection, Source, printable, shortened};
 use crate::notation::Color;
-use crate::output::{prepare_folder, slug, write_json, write_json_lines, write_png};
+use crate::output::{
+    frame_name, prepare_folder, remove_frames, slug, write_json, write_json_lines, write_png,
+};
 use crate::timeline::{Film, Timeline};
 use crate::tracer::RayCounts;
 
@@ -47,18 +50,21 @@ pub struct Summary {
 struct Batch {
     file: String,
     folder: PathBuf,
-    games: Vec<(Game, Plan)>,
+    games: Vec<(Game, Option<Part>)>,
 }
 
-enum Plan {
-    Show(Timeline),
-    Skip,
+/// The part of a game that is shown: its first and last position, in half-moves.
+struct Part {
+    first: usize,
+    last: usize,
+    frames: usize,
 }
 
 /// Renders games into pictures; each gets a manifest, each file a report.
 ///
 /// All input is read before the first picture, and nothing is written if any of it cannot be read
-/// at all. Games that can be played only in part are rendered in part.
+/// at all. Games that can be played only in part are rendered in part. Numbered pictures of an
+/// earlier run in a game's folder are removed.
 ///
 /// # Errors
 /// Input that cannot be read, output that cannot be written, or a selection without games.
@@ -72,40 +78,31 @@ pub fn render(job: &RenderJob, progress: &dyn Progress) -> Result<Summary, JobEr
     for batch in &batches {
         prepare_folder(&batch.folder)?;
     }
-    let plans = batches.iter().flat_map(|batch| &batch.games);
-    progress.begin(plans.map(|(_, plan)| plan.frames() as u64).sum());
+    let parts = batches.iter().flat_map(|batch| &batch.games).filter_map(|(_, part)| part.as_ref());
+    progress.begin(parts.map(|part| part.frames as u64).sum());
     for batch in &batches {
-        run.batch(batch)?;
+        if !run.summary.cancelled {
+            run.batch(batch)?;
+        }
     }
     run.summary.rays = run.studio.rays();
     Ok(run.summary)
-}
-
-impl Plan {
-    fn frames(&self) -> usize {
-        match self {
-            Plan::Show(timeline) => timeline.frames(),
-            Plan::Skip => 0,
-        }
-    }
 }
 
 /// One folder name a file: its own without the ending, with a number where that is taken.
 fn folder_names(inputs: &[PathBuf]) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     for input in inputs {
-        let stem = match input.file_stem() {
-            Some(_) if input == Path::new("-") => "stdin".to_owned(),
-            Some(stem) => stem.to_string_lossy().into_owned(),
-            None => "games".to_owned(),
+        let stem = input.file_stem().filter(|_| input != Path::new("-"));
+        let stem = stem.map_or("stdin".into(), OsStr::to_string_lossy);
+        // A name that leads elsewhere is none.
+        let stem = match stem.as_ref() {
+            "." | ".." => "games".to_owned(),
+            name => printable(name),
         };
-        let mut name = stem.clone();
-        let mut number = 2;
-        while names.contains(&name) {
-            name = format!("{stem}-{number}");
-            number += 1;
-        }
-        names.push(name);
+        let numbered = (2..).map(|number| format!("{stem}-{number}"));
+        let free = std::iter::once(stem.clone()).chain(numbered).find(|name| !names.contains(name));
+        names.push(free.unwrap_or(stem));
     }
     names
 }
@@ -125,11 +122,14 @@ fn read_batch(
         if job.selection.as_ref().is_some_and(|selection| !selection.contains(game.number)) {
             continue;
         }
-        let plan = plan(job, &mut game);
-        for problem in &game.problems {
-            progress.warn(&format!("{file}: game {}, {problem}", game.number));
+        let part = part(job, &mut game);
+        say_problems(&file, &game, progress);
+        if let Some(Part { frames, .. }) = part
+            && frames > MAX_FRAMES
+        {
+            return Err(JobError::TooLong { file, game: game.number, frames });
         }
-        games.push((game, plan));
+        games.push((game, part));
     }
     if games.is_empty() {
         return Err(JobError::NothingSelected { file, games: seen });
@@ -137,25 +137,40 @@ fn read_batch(
     Ok(Batch { file, folder, games })
 }
 
-/// What to show of a game; why not is added to its problems.
-fn plan(job: &RenderJob, game: &mut Game) -> Plan {
+/// What to show of a game; why nothing is added to its problems.
+fn part(job: &RenderJob, game: &mut Game) -> Option<Part> {
     if !game.start_is_known {
-        return Plan::Skip;
+        return None;
     }
-    // A film that is to go on longer than the game ends with it.
-    let last = job.to.ply(game).unwrap_or(game.plies.len());
-    match job.from.ply(game).filter(|first| *first <= last) {
-        Some(first) => Plan::Show(Timeline::new(game, first, last, job.film, job.orbit)),
-        None => {
-            game.problems.push(Problem {
-                line: game.line,
-                token: job.from.to_string(),
-                what: format!("is no position up to the last one, after {last} half-moves"),
-                loses_moves: false,
-            });
-            Plan::Skip
+    let end = game.plies.len();
+    let first = job.from.ply(game).map_err(|absent| ("--from", job.from, absent));
+    let last = match job.to.ply(game) {
+        // A film that is to go on longer than the game ends with it.
+        Err(Absent::BehindTheEnd) => Ok(end),
+        other => other.map_err(|absent| ("--to", job.to, absent)),
+    };
+    let (flag, moment, clause) = match (first, last) {
+        (Ok(first), Ok(last)) if first <= last => {
+            let moves = last - first;
+            let frames = job.film.map_or(moves + 1, |film| film.frames(moves));
+            return Some(Part { first, last, frames });
         }
-    }
+        (Ok(_), Ok(last)) => ("--from", job.from, format!("is behind {}", game.moment_name(last))),
+        (Err((flag, moment, Absent::BeforeTheStart)), _)
+        | (_, Err((flag, moment, Absent::BeforeTheStart))) => {
+            (flag, moment, format!("is before the start, the first move is {}", game.first_move()))
+        }
+        (Err((flag, moment, _)), _) | (_, Err((flag, moment, _))) => {
+            (flag, moment, format!("is behind the end, {}", game.moment_name(end)))
+        }
+    };
+    game.problems.push(Problem {
+        line: game.line,
+        token: format!("{flag} {moment}"),
+        what: clause,
+        loses_moves: false,
+    });
+    None
 }
 
 /// A job under way.
@@ -167,44 +182,54 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
+    /// Renders the games of a file; the report tells of all that were begun, even where one fails.
     fn batch(&mut self, batch: &Batch) -> Result<(), JobError> {
         let mut report = Vec::new();
-        for (game, plan) in &batch.games {
-            if self.summary.cancelled {
+        let mut outcome = Ok(());
+        for (game, part) in &batch.games {
+            if self.summary.cancelled || outcome.is_err() {
                 break;
             }
-            let (status, frames, folder) = match plan {
-                Plan::Skip => (Status::Skipped, 0, None),
-                Plan::Show(timeline) => {
-                    let name = game_folder(game);
-                    let frames = self.game(batch, &batch.folder.join(&name), game, timeline)?;
-                    let whole = game.is_whole() && !self.summary.cancelled;
-                    let status = if whole { Status::Rendered } else { Status::Partial };
-                    (status, frames, Some(name))
-                }
+            let Some(part) = part else {
+                self.summary.skipped += 1;
+                report.push(ReportLine::new(game, Status::Skipped, 0, None));
+                continue;
+            };
+            let name = game_folder(game);
+            let before = self.summary.frames;
+            outcome = self.game(batch, &batch.folder.join(&name), game, part);
+            let status = match outcome {
+                Ok(()) if self.summary.cancelled => Status::Stopped,
+                Ok(()) if game.is_whole() => Status::Rendered,
+                Ok(()) => Status::Partial,
+                Err(_) => Status::Stopped,
             };
             match status {
                 Status::Rendered => self.summary.rendered += 1,
-                Status::Partial => self.summary.partial += 1,
-                Status::Skipped => self.summary.skipped += 1,
+                _ => self.summary.partial += 1,
             }
-            report.push(ReportLine::new(game, status, frames, folder));
+            let frames = (self.summary.frames - before) as usize;
+            report.push(ReportLine::new(game, status, frames, Some(name)));
         }
-        Ok(write_json_lines(&batch.folder.join("report.jsonl"), &report)?)
+        let written = write_json_lines(&batch.folder.join("report.jsonl"), &report);
+        outcome?;
+        Ok(written?)
     }
 
-    /// Renders the frames of a game and writes its manifest; gives the number of pictures.
+    /// Renders a part of a game and writes its manifest.
     fn game(
         &mut self,
         batch: &Batch,
         folder: &Path,
         game: &Game,
-        timeline: &Timeline,
-    ) -> Result<usize, JobError> {
+        part: &Part,
+    ) -> Result<(), JobError> {
         prepare_folder(folder)?;
-        let players = [Color::White, Color::Black].map(|color| game.player(color));
+        remove_frames(folder)?;
+        let players = [Color::White, Color::Black].map(|color| shortened(game.player(color), 60));
         self.progress.game(&players.join(" – "));
-        let mut rows = Vec::with_capacity(timeline.frames());
+        let timeline = Timeline::new(game, part.first, part.last, self.job.film, self.job.orbit);
+        let mut rows = Vec::new();
         let mut shown_last = None;
         for index in 0..timeline.frames() {
             if self.progress.is_cancelled() {
@@ -212,33 +237,32 @@ impl Run<'_> {
                 break;
             }
             let frame = timeline.frame(index);
-            let row = FrameRow::new(format!("frame_{index:05}.png"), game, &frame);
             // A pause is one picture many times over.
             let picture = match shown_last.take() {
                 Some((last, picture)) if frame.shows_the_same(&last) => picture,
                 _ => self.studio.picture(&frame),
             };
-            write_png(&folder.join(&row.file), &picture, &row.texts(game))?;
-            rows.push(row);
+            let name = frame_name(index);
+            write_png(&folder.join(&name), &picture, &texts(game, &frame))?;
+            rows.push(FrameRow::new(name, game, &frame));
             self.progress.frame_done();
             self.summary.frames += 1;
             shown_last = Some((frame, picture));
         }
-        let frames = rows.len();
         let manifest = Manifest {
-            file: batch.file.clone(),
+            file: &batch.file,
             game: game.number,
             line: game.line,
             tags: tags(game),
+            unread_tags: &game.unread_tags,
             result: &game.result,
-            problems: problems(&game.problems),
-            settings: &self.studio.record(),
+            problems: &game.problems,
+            settings: self.studio.record(),
             film: self.job.film,
             orbit: self.job.orbit,
             frames: rows,
         };
-        write_json(&folder.join("game.json"), &manifest)?;
-        Ok(frames)
+        Ok(write_json(&folder.join("game.json"), &manifest)?)
     }
 }
 

@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 
 use image::RgbImage;
+use serde::Serialize;
 
-use super::{JobError, SettingsRecord};
+use super::JobError;
 use crate::assets::thesis_set;
 use crate::config::Config;
 use crate::scene::Stage;
@@ -23,6 +24,16 @@ pub struct PictureSettings {
     pub antialiasing: Antialiasing,
     /// The number of threads; as many as the machine has cores when `None`.
     pub threads: Option<usize>,
+}
+
+/// [`PictureSettings`] as they stand in a manifest, without what changes no picture.
+#[derive(Serialize)]
+pub(super) struct SettingsRecord<'a> {
+    version: &'static str,
+    config_file: Option<&'a PathBuf>,
+    antialiasing_rays_per_side: u32,
+    #[serde(flatten)]
+    config: &'a Config,
 }
 
 /// Makes pictures of frames.

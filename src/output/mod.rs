@@ -2,10 +2,12 @@
 //!
 //! A file is written whole or not at all: under a temporary name in the same folder, then renamed.
 
+mod frames;
 mod png;
 mod record;
 mod slug;
 
+pub use frames::{frame_name, remove_frames};
 pub use png::{encode_png, write_png};
 pub use record::{write_json, write_json_lines};
 pub use slug::slug;
@@ -34,24 +36,31 @@ pub fn prepare_folder(folder: &Path) -> Result<(), OutputError> {
     Ok(())
 }
 
-/// Writes a file through `write`, whole or not at all; a file of that name is replaced.
+/// Writes a file through `write`, whole or not at all; a file of that name is replaced. What is no
+/// file (a pipe, a device) is written to as it is; a link is followed.
 fn write_whole(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), OutputError> {
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-    let write_renamed = || {
+    let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let special = fs::metadata(&target).is_ok_and(|found| !found.is_file() && !found.is_dir());
+    let written = || {
+        if special {
+            let mut out = BufWriter::new(fs::OpenOptions::new().write(true).open(&target)?);
+            write(&mut out)?;
+            return out.flush();
+        }
+        let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty());
         let mut builder = tempfile::Builder::new();
         builder.prefix(".lightsquare-");
         // Readable as any other file is; the default is for secrets.
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-        let file = builder.tempfile_in(folder.unwrap_or(Path::new(".")))?;
-        let mut buffered = BufWriter::new(file);
-        write(&mut buffered)?;
-        let file = buffered.into_inner().map_err(io::IntoInnerError::into_error)?;
-        file.persist(path).map_err(|error| error.error)?;
+        let mut out = BufWriter::new(builder.tempfile_in(folder.unwrap_or(Path::new(".")))?);
+        write(&mut out)?;
+        let file = out.into_inner().map_err(io::IntoInnerError::into_error)?;
+        file.persist(&target).map_err(|error| error.error)?;
         Ok(())
     };
-    write_renamed().map_err(|error| OutputError { path: path.to_owned(), error })
+    written().map_err(|error| OutputError { path: path.to_owned(), error })
 }

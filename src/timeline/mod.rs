@@ -39,13 +39,12 @@ impl Film {
     /// first + moves × transition + (moves − 1) × pause + last.
     pub fn length(&self, moves: usize) -> f64 {
         let pauses = moves.saturating_sub(1) as f64;
-        let until_last = self.first + moves as f64 * self.transition + pauses * self.pause;
-        until_last + self.last
+        self.first + moves as f64 * self.transition + pauses * self.pause + self.last
     }
 
-    /// When the position after so many moves is reached.
-    fn reached(&self, moves: usize) -> f64 {
-        if moves == 0 { 0.0 } else { self.length(moves) - self.last }
+    /// The number of frames of a film of so many moves, at least 1.
+    pub fn frames(&self, moves: usize) -> usize {
+        ((self.length(moves) * self.fps).round() as usize).max(1)
     }
 }
 
@@ -130,17 +129,14 @@ impl Timeline {
     pub fn frames(&self) -> usize {
         match &self.film {
             None => self.positions.len(),
-            Some(film) => {
-                let frames = (film.length(self.motions.len()) * film.fps).round();
-                (frames as usize).max(1)
-            }
+            Some(film) => film.frames(self.motions.len()),
         }
     }
 
     /// Frame `index`, from 0 to `frames() - 1`.
     pub fn frame(&self, index: usize) -> Frame {
         let mut frame = match &self.film {
-            None => self.at_rest(index, Film::default().reached(index)),
+            None => self.at_rest(index, reached(&Film::default(), index)),
             Some(film) => self.at_time(film, index as f64 / film.fps),
         };
         let steps = self.frames().saturating_sub(1).max(1);
@@ -181,4 +177,9 @@ impl Timeline {
             self.at_rest(current + 1, time)
         }
     }
+}
+
+/// When a film reaches the position after so many moves.
+fn reached(film: &Film, moves: usize) -> f64 {
+    if moves == 0 { 0.0 } else { Film { last: 0.0, ..*film }.length(moves) }
 }

@@ -5,23 +5,33 @@ use shakmaty::{CastlingSide, Move};
 use super::pieces::{Mover, Position, Spot};
 use crate::notation::{Placement, Role, Square};
 
-/// The highest point of a hop, in squares: a king (1.67 squares tall) has room below it.
+/// The highest point of a hop, in squares: a king (1.67 squares tall) has room below it where the
+/// way crosses other pieces.
 const HOP: f64 = 2.0;
 
 /// How far a sliding piece is lifted.
 const GLIDE: f64 = 0.05;
 
-/// Where a captured piece leaves the board: this high, and this far beyond the edge.
-const CARRIED: f64 = 2.2;
+/// Where a captured piece leaves the board: this high, above a king in the middle of a hop, and
+/// this far beyond the edge.
+const CARRIED: f64 = 3.9;
 const BESIDE: f64 = 2.0;
 
 /// The paths of one move: who goes where, and what is taken.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Motion {
-    /// From, to, and whether the piece hops over what stands between.
-    paths: Vec<(Square, Square, bool)>,
+    paths: Vec<Path>,
     captured: Option<Square>,
     dropped: Option<Square>,
+}
+
+/// The way of one piece.
+#[derive(Clone, Debug, PartialEq)]
+struct Path {
+    from: Square,
+    to: Square,
+    /// Whether it hops over what stands between.
+    hops: bool,
 }
 
 impl Motion {
@@ -30,24 +40,24 @@ impl Motion {
         let (paths, captured, dropped) = match *played {
             Move::Normal { role, from, capture, to, .. } => {
                 let hops = role == Role::Knight;
-                (vec![(from, to, hops)], capture.map(|_| to), None)
+                (vec![Path { from, to, hops }], capture.map(|_| to), None)
             }
             Move::EnPassant { from, to } => {
                 let taken = Square::from_coords(to.file(), from.rank());
-                (vec![(from, to, false)], Some(taken), None)
+                (vec![Path { from, to, hops: false }], Some(taken), None)
             }
             // A castling move names the rook's square, not the king's.
             Move::Castle { king, rook } => {
                 let side = CastlingSide::from_queen_side(rook < king);
                 let to = |file| Square::from_coords(file, king.rank());
-                let king_path = (king, to(side.king_to_file()), false);
-                let rook_path = (rook, to(side.rook_to_file()), true);
+                let king_path = Path { from: king, to: to(side.king_to_file()), hops: false };
+                let rook_path = Path { from: rook, to: to(side.rook_to_file()), hops: true };
                 (vec![king_path, rook_path], None, None)
             }
             Move::Put { to, .. } => (vec![], None, Some(to)),
         };
         Motion {
-            paths: paths.into_iter().filter(|(from, to, _)| from != to).collect(),
+            paths: paths.into_iter().filter(|path| path.from != path.to).collect(),
             captured,
             dropped,
         }
@@ -56,10 +66,14 @@ impl Motion {
     /// The position after the move, which has the pieces of `placement`.
     pub fn after(&self, before: &Position, placement: Placement) -> Position {
         let mut identities = before.identities;
-        for &(from, to, _) in &self.paths {
-            identities.set(to, before.identities.get(from));
+        for path in &self.paths {
+            identities.set(path.to, before.identities.get(path.from));
         }
         if let Some(square) = self.dropped {
+            identities.set(square, square);
+        }
+        // On an empty square nobody stands: it must not remember who left.
+        for square in Square::ALL.into_iter().filter(|square| placement.get(*square).is_none()) {
             identities.set(square, square);
         }
         Position { placement, identities }
@@ -75,8 +89,8 @@ impl Motion {
                 movers.push(Mover { piece, identity: before.identities.get(square), spot });
             }
         };
-        for &(from, to, hops) in &self.paths {
-            lift(from, on_the_way(from, to, hops, passed));
+        for path in &self.paths {
+            lift(path.from, path.at(passed));
         }
         if let Some(square) = self.captured {
             lift(square, leaving(square, passed));
@@ -85,15 +99,17 @@ impl Motion {
     }
 }
 
-fn on_the_way(from: Square, to: Square, hops: bool, passed: f64) -> Spot {
-    let (from, to) = (Spot::on(from), Spot::on(to));
-    let along = ease(passed);
-    let arc = 4.0 * passed * (1.0 - passed);
-    Spot {
-        file: mix(from.file, to.file, along),
-        rank: mix(from.rank, to.rank, along),
-        // A hop rises at once and stays high while it passes over other pieces.
-        height: if hops { HOP * arc * (2.0 - arc) } else { GLIDE * arc },
+impl Path {
+    fn at(&self, passed: f64) -> Spot {
+        let (from, to) = (Spot::on(self.from), Spot::on(self.to));
+        let along = ease(passed);
+        let arc = 4.0 * passed * (1.0 - passed);
+        Spot {
+            file: mix(from.file, to.file, along),
+            rank: mix(from.rank, to.rank, along),
+            // A hop rises at once and stays high while it passes over other pieces.
+            height: if self.hops { HOP * arc * (2.0 - arc) } else { GLIDE * arc },
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use smallvec::{SmallVec, smallvec};
 
-use crate::geometry::{Bounds, Crossing, Range, Ray, Solid};
+use crate::geometry::{Bounds, Hit, Interval, Ray, Solid};
 use crate::scene::Object;
 
 /// A bounding volume hierarchy, halved at the median along the longest side.
@@ -34,13 +34,13 @@ impl<'a> Hierarchy<'a> {
     }
 
     /// The nearest object in front of `ray`, and where the ray meets it.
-    pub fn nearest(&self, ray: &Ray) -> Option<(&'a Object, Crossing)> {
-        let mut range = Range::AHEAD;
+    pub fn nearest(&self, ray: &Ray) -> Option<(&'a Object, Hit)> {
+        let mut range = Interval::AHEAD;
         let mut found = None;
         self.visit(ray, &mut range, |object, range| {
-            if let Some(crossing) = object.body.nearest(ray, *range) {
-                range.max = crossing.t;
-                found = Some((object, crossing));
+            if let Some(hit) = object.body.nearest(ray, *range) {
+                range.max = hit.t;
+                found = Some((object, hit));
             }
             false
         });
@@ -49,7 +49,7 @@ impl<'a> Hierarchy<'a> {
 
     /// Whether anything stands in the way of `ray` before `distance`.
     pub fn blocks(&self, ray: &Ray, distance: f64) -> bool {
-        let mut range = Range::up_to(distance);
+        let mut range = Interval::up_to(distance);
         self.visit(ray, &mut range, |object, range| object.body.blocks(ray, *range))
     }
 
@@ -58,8 +58,8 @@ impl<'a> Hierarchy<'a> {
     fn visit(
         &self,
         ray: &Ray,
-        range: &mut Range,
-        mut look: impl FnMut(&'a Object, &mut Range) -> bool,
+        range: &mut Interval,
+        mut look: impl FnMut(&'a Object, &mut Interval) -> bool,
     ) -> bool {
         let mut pending: SmallVec<[usize; 16]> = smallvec![];
         if !self.nodes.is_empty() {

@@ -25,13 +25,6 @@ pub struct RayCounts {
     pub reflected: u64,
 }
 
-impl RayCounts {
-    /// Rays of all kinds.
-    pub fn total(&self) -> u64 {
-        self.primary + self.shadow + self.reflected
-    }
-}
-
 impl std::ops::Add for RayCounts {
     type Output = RayCounts;
 

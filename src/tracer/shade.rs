@@ -29,12 +29,12 @@ impl<'a> Tracer<'a> {
     }
 
     fn radiance(&self, ray: &Ray, depth: u32, counts: &mut RayCounts) -> Rgb {
-        let Some((object, crossing)) = self.hierarchy.nearest(ray) else {
+        let Some((object, hit)) = self.hierarchy.nearest(ray) else {
             return self.scene.background;
         };
         let material = &object.material;
-        let point = ray.at(crossing.t);
-        let normal = crossing.normal;
+        let point = ray.at(hit.t);
+        let normal = hit.normal;
         let leaving = point + normal * OFFSET;
         let mirrored = ray.direction - normal * (2.0 * ray.direction.dot(normal));
         let color = material.texture.color(object.body.own_point(point));
