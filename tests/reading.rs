@@ -98,14 +98,16 @@ fn a_game_stops_where_a_move_may_be_missing() {
     let cases = [
         // Numbers that do not fit.
         ("1. e4 e5 3. Bc4 Nf6 *", "e4 e5"),
-        ("1. e4 e5 2. Nf3 3. Nc3 *", "e4 e5 Nf3"),
-        ("1. d4 2. d5 *", "d4"),
+        ("1. e4 e5 2. Nf3 3. Nc3 *", "e4 e5"),
+        // Of these two moves one is missing, and d5 may be Black's.
+        ("1. e4 e5 2. d4 3. d5 *", "e4 e5"),
+        ("1. d4 2. d5 *", ""),
         ("1. d4 12 2. d5 *", "d4"),
-        ("1. d4 (null) 2. d5 *", "d4"),
+        ("1. d4 (null) 2. d5 *", ""),
         ("1. e4 e5 2... Nf3 *", "e4 e5"),
         ("1. e4 e5 2. Nf3 Nc6 3. Bc4 Bc5 4. 0 - 0 Nd4 *", "e4 e5 Nf3 Nc6 Bc4 Bc5"),
         // A move that is not there, or said not to be made.
-        ("1. d4 ... 2. d5 *", "d4"),
+        ("1. d4 ... 2. d5 *", ""),
         ("1. d4 — d5 *", "d4"),
         ("1. d4 - d5 *", "d4"),
         ("1. d4 _ d5 *", "d4"),

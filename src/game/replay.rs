@@ -54,7 +54,8 @@ pub fn replay(scanned: ScannedGame, number: usize) -> Game {
     }
 }
 
-/// Plays move by move into `plies`; gives what stopped it.
+/// Plays move by move into `plies`; gives what stopped it. Where a number shows that a move is
+/// missing, half a move before it is taken back: it may be the other player's.
 fn play(
     mut position: Chess,
     tokens: &[Token],
@@ -63,6 +64,7 @@ fn play(
 ) -> Option<Problem> {
     // A FEN may count its moves otherwise than the text does; the first number tells.
     let mut shift = None;
+    let mut certain = 0;
     for (index, token) in tokens.iter().enumerate() {
         let stop = |what: &str| Some(Problem::new(token.line, &token.text, what, true));
         if let Some(fault) = token.fault {
@@ -72,11 +74,17 @@ fn play(
             let counted = i64::from(position.fullmoves().get());
             let number = counted + *shift.get_or_insert(found - counted);
             if found != number {
+                if position.turn() == Color::Black {
+                    plies.truncate(certain);
+                }
                 return stop(&format!("is numbered {found}, expected {number}"));
             }
         }
         if token.is_blacks && position.turn() == Color::White {
             return stop("is marked as a move of Black, but White is to move");
+        }
+        if token.number.is_some() {
+            certain = plies.len();
         }
         let Some(written) = reading.written.get(index) else {
             return stop("cannot be read for certain");

@@ -297,8 +297,10 @@ impl<R: BufRead> Scanner<R> {
         let words: Vec<Word> = text.split_whitespace().flat_map(classify).collect();
         let goes_on = words.iter().any(|word| matches!(word, Word::Number { .. } | Word::Move(_)));
         let begins = |game: &ScannedGame| {
-            let from_one = matches!(words.first(), Some(Word::Number { number: 1, dots: 1 }));
-            game.has_ended() && goes_on || from_one && game.tokens.len() > 1
+            let from_one = matches!(words.first(), Some(Word::Number { number: 1, dots: 1 }))
+                && game.before.number.is_none()
+                && game.tokens.len() > 1;
+            game.has_ended() && goes_on || from_one
         };
         if game.as_ref().is_some_and(begins) {
             let mut next = ScannedGame::at(line);
