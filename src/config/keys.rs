@@ -162,14 +162,14 @@ fn light_sections(
         described[number as usize] = true;
         match (section.position, section.color) {
             (Some(position), Some(color)) => *light = Some(Light { position, color }),
-            (None, _) => fault(format!("[Light{number}] has no usable Position")),
-            (_, None) => fault(format!("[Light{number}] has no usable Color")),
+            (None, _) => fault(format!("[Light{number}] has no usable Position, expected one")),
+            (_, None) => fault(format!("[Light{number}] has no usable Color, expected one")),
         }
     }
     for (number, _) in described.iter().enumerate().filter(|(_, described)| !**described) {
         faults.push(Fault {
             line: 0,
-            message: format!("there are {count} lights, but there is no section [Light{number}]"),
+            message: format!("LightCount or a section speaks of light {number}, expected a section [Light{number}]"),
         });
     }
     config.lights = lights.into_iter().flatten().collect();
@@ -235,7 +235,7 @@ mod tests {
             ("[Camera]\n\nZRot", "line 3: `ZRot` is neither a [section] nor a key=value"),
             (
                 "[GlobalSettings]\nLightCount=2\n[Light0]\nPosition=0,1,0\nColor=1,1,1",
-                "there are 2 lights, but there is no section [Light1]",
+                "expected a section [Light1]",
             ),
             (
                 "[Light0]\nPosition=0,1,0\n[Light1]\nPosition=0,1,0\nColor=1,1,1",

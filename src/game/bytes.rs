@@ -11,12 +11,14 @@ pub struct Bytes<R> {
     pub line: usize,
     /// Whether only blanks stand before the next byte in its line.
     pub at_line_start: bool,
+    /// Whether the next byte is the first of its line.
+    pub at_first_column: bool,
 }
 
 impl<R: BufRead> Bytes<R> {
     /// Starts at line 1.
     pub fn new(reader: R) -> Bytes<R> {
-        Bytes { reader, line: 1, at_line_start: true }
+        Bytes { reader, line: 1, at_line_start: true, at_first_column: true }
     }
 
     /// The next byte, which stays.
@@ -42,6 +44,7 @@ impl<R: BufRead> Bytes<R> {
             }
             byte = b'\n';
         }
+        self.at_first_column = byte == b'\n';
         if byte == b'\n' {
             self.line += 1;
             self.at_line_start = true;

@@ -82,7 +82,7 @@ impl Visitor for MainLine {
 }
 
 /// Reads a token in the ways that files really write moves.
-fn tolerant(token: &str) -> Written {
+pub fn tolerant(token: &str) -> Written {
     let plain = plain(token);
     let san = SanPlus::from_ascii(plain.as_bytes()).ok().map(|san| san.san);
     Written {

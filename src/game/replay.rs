@@ -3,8 +3,9 @@
 use shakmaty::san::{SanError, SanPlus};
 use shakmaty::{Chess, Color, Move, Position, Setup};
 
-use super::movetext::{self, Reading, Written};
+use super::movetext::{self, Reading, Written, tolerant};
 use super::scan::Token;
+use super::word::ascii_dashes;
 use super::{Game, Ply, Problem, ScannedGame, start, tag};
 
 /// Replays `scanned`, the game of that number in its file.
@@ -55,36 +56,40 @@ pub fn replay(scanned: ScannedGame, number: usize) -> Game {
 }
 
 /// Plays move by move into `plies`; gives what stopped it. Where a number shows that a move is
-/// missing, half a move before it is taken back: it may be the other player's.
+/// missing, the moves since the last number that fits are taken back: each may be another one's.
 fn play(
     mut position: Chess,
     tokens: &[Token],
     reading: &Reading,
     plies: &mut Vec<Ply>,
 ) -> Option<Problem> {
-    // A FEN may count its moves otherwise than the text does; the first number tells.
-    let mut shift = None;
+    let shift = numbering_shift(&position, tokens);
     let mut certain = 0;
     for (index, token) in tokens.iter().enumerate() {
         let stop = |what: &str| Some(Problem::new(token.line, &token.text, what, true));
+        if token.number.is_none() && ascii_dashes(&token.text).starts_with("-O") {
+            // The torn end of a long castling: what went before is no short one.
+            plies.pop();
+        }
         if let Some(fault) = token.fault {
             return stop(fault);
         }
-        if let Some(found) = token.number.map(i64::from) {
-            let counted = i64::from(position.fullmoves().get());
-            let number = counted + *shift.get_or_insert(found - counted);
-            if found != number {
-                if position.turn() == Color::Black {
-                    plies.truncate(certain);
-                }
-                return stop(&format!("is numbered {found}, expected {number}"));
-            }
+        let expected = i64::from(position.fullmoves().get()) + shift;
+        if let Some(found) = token.number.filter(|found| i64::from(*found) != expected) {
+            plies.truncate(certain);
+            return stop(&format!("is numbered {found}, expected {expected}"));
         }
         if token.is_blacks && position.turn() == Color::White {
+            plies.truncate(certain);
             return stop("is marked as a move of Black, but White is to move");
         }
         if token.number.is_some() {
             certain = plies.len();
+        }
+        if let Some(letter) = token.letter
+            && legal(&position, &tolerant(&format!("{letter}{}", token.text))).is_ok()
+        {
+            return stop(&format!("follows the letter {letter}, which may be its piece"));
         }
         let Some(written) = reading.written.get(index) else {
             return stop("cannot be read for certain");
@@ -99,6 +104,16 @@ fn play(
     let last = tokens.last().filter(|_| !reading.is_certain)?;
     let what = "is followed by something that may be a move";
     Some(Problem::new(last.line, &last.text, what, true))
+}
+
+/// What the numbers of the text are ahead of the position's. Texts count on from a FEN, from 1, or
+/// rightly from a FEN that says nothing but 1.
+fn numbering_shift(position: &Chess, tokens: &[Token]) -> i64 {
+    let counted = i64::from(position.fullmoves().get());
+    match tokens.first().and_then(|token| token.number).map(i64::from) {
+        Some(first) if first == 1 || counted == 1 => first - counted,
+        _ => 0,
+    }
 }
 
 /// The legal move that is meant, or a clause that says what is wrong.

@@ -47,6 +47,8 @@ pub struct Token {
     pub number: Option<u32>,
     /// Whether dots before it say that it is Black's.
     pub is_blacks: bool,
+    /// A lone letter before it: a remark, or its piece.
+    pub letter: Option<char>,
     /// Why the game cannot go on here, as a clause after the text.
     pub fault: Option<&'static str>,
 }
@@ -62,7 +64,7 @@ impl Token {
 struct Before {
     number: Option<u32>,
     dots: bool,
-    letter: bool,
+    letter: Option<char>,
 }
 
 /// Gives the games of a stream one after the other.
@@ -105,12 +107,13 @@ impl<R: BufRead> Scanner<R> {
                     blank = true;
                     continue;
                 }
-                byte if byte.is_ascii_whitespace() => {
+                // 0x1A is how DOS ends a text.
+                byte if byte.is_ascii_whitespace() || byte == 0x1A => {
                     self.bytes.bump()?;
                     blank = was_blank;
                     continue;
                 }
-                b'%' if self.bytes.at_line_start => {
+                b'%' if self.bytes.at_first_column => {
                     self.bytes.rest_of_line()?;
                     continue;
                 }
@@ -231,9 +234,13 @@ impl<R: BufRead> Scanner<R> {
                 None => break,
             }
         }
-        if let Some(game) = game.as_mut().or(self.begun.as_mut()) {
-            let what = "opens a comment that is never closed";
-            game.problems.push(Problem::new(opened, "{", what, game.has_moves()));
+        // Before a game it hides nothing of the one that begins within.
+        let hides_moves = game.is_some() || self.begun.is_none();
+        let what = "opens a comment that is never closed";
+        let problem = Problem::new(opened, "{", what, hides_moves);
+        match self.begun.as_mut().filter(|_| !hides_moves) {
+            Some(begun) => begun.problems.push(problem),
+            None => game.get_or_insert_with(|| ScannedGame::at(opened)).problems.push(problem),
         }
         Ok(if self.begun.is_some() { Next::NewGame } else { Next::SameGame })
     }
@@ -295,16 +302,25 @@ impl<R: BufRead> Scanner<R> {
         }
         // Blanks that are not ASCII (a no-break space) may stand within.
         let words: Vec<Word> = text.split_whitespace().flat_map(classify).collect();
-        let goes_on = words.iter().any(|word| matches!(word, Word::Number { .. } | Word::Move(_)));
+        let goes_on = words.iter().any(|word| match word {
+            Word::Number { .. } => true,
+            Word::Move(text) => movetext::is_move(text),
+            _ => false,
+        });
+        let from_one = matches!(words.first(), Some(Word::Number { number: 1, dots: 1 }));
         let begins = |game: &ScannedGame| {
-            let from_one = matches!(words.first(), Some(Word::Number { number: 1, dots: 1 }))
-                && game.before.number.is_none()
-                && game.tokens.len() > 1;
-            game.has_ended() && goes_on || from_one
+            let again = from_one && at_line_start && game.before.number.is_none();
+            game.has_ended() && goes_on || again && game.tokens.len() > 1
         };
         if game.as_ref().is_some_and(begins) {
             let mut next = ScannedGame::at(line);
             next.take_stray(&mut self.stray_tags);
+            if !at_line_start && !matches!(words.first(), Some(Word::Number { .. })) {
+                // In the middle of a line they may go on with the game that seemed to end.
+                let what = "goes on behind a result";
+                next.problems.push(Problem::new(line, text, what, true));
+                next.start_is_lost = true;
+            }
             next.take(line, text, words);
             self.begun = Some(next);
             return Ok(Next::NewGame);
@@ -369,11 +385,18 @@ impl ScannedGame {
 
     fn tag(&mut self, line: usize, name: String, value: String) {
         self.gap = false;
-        if super::tag(&self.tags, &name).is_some() {
-            let what = "repeats a tag; the first one counts";
-            self.remark(line, &format!("[{name} \"{value}\"]"), what);
-        } else {
-            self.tags.push((name, value));
+        match super::tag(&self.tags, &name) {
+            None => self.tags.push((name, value)),
+            Some(first) => {
+                let raw = format!("[{name} \"{value}\"]");
+                if says_start(&name) && first != value {
+                    let what = "says something else than the tag of that name before it";
+                    self.problems.push(Problem::new(line, &raw, what, true));
+                    self.start_is_lost = true;
+                } else {
+                    self.remark(line, &raw, "repeats a tag; the first one counts");
+                }
+            }
         }
     }
 
@@ -386,8 +409,7 @@ impl ScannedGame {
                 self.stop(line, &raw, what);
                 continue;
             }
-            let name = raw.trim_start_matches(['[', ' ', '\t']).to_ascii_lowercase();
-            let says_start = ["fen", "setup", "variant"].iter().any(|tag| name.starts_with(tag));
+            let says_start = says_start(&raw) || raw.matches('/').count() >= 7;
             self.start_is_lost |= says_start;
             self.problems.push(Problem::new(line, &raw, what, says_start));
             self.unread_tags.push(raw);
@@ -395,7 +417,8 @@ impl ScannedGame {
     }
 
     fn bracketed(&mut self, line: usize, raw: &str) {
-        if is_harmless(raw) {
+        let mut words = raw.split([' ', '\t', ']', ',']);
+        if is_harmless(raw) && !words.any(movetext::is_move) {
             self.remark(line, raw, "is no move");
         } else {
             self.stop(line, raw, "may hide moves");
@@ -413,7 +436,7 @@ impl ScannedGame {
             match word {
                 Word::Number { number, dots } => {
                     let twice = self.before.number.is_some();
-                    self.before = Before { number: Some(number), dots: dots > 1, letter: false };
+                    self.before = Before { number: Some(number), dots: dots > 1, letter: None };
                     if twice {
                         self.stop(line, text, "is a second number without a move between");
                     }
@@ -425,11 +448,12 @@ impl ScannedGame {
                     }
                     _ => self.result = Some(result),
                 },
+                Word::Move(text) if self.has_ended() => self.remark(line, &text, "is no move"),
                 Word::Move(text) => self.token(line, text),
                 Word::Annotation => {}
-                Word::Letter('N' | 'D') if self.before.number.is_none() => {
+                Word::Letter(letter @ ('N' | 'D')) if self.before.number.is_none() => {
                     self.remark(line, text, "is no move");
-                    self.before.letter = true;
+                    self.before.letter = Some(letter);
                 }
                 Word::Letter(_) | Word::Unknown => self.stop(line, text, "is no move"),
             }
@@ -438,14 +462,13 @@ impl ScannedGame {
 
     fn token(&mut self, line: usize, text: String) {
         let before = mem::take(&mut self.before);
-        // `N f3`: a pawn's move behind a lone letter may be the move of a piece.
-        let torn = before.letter && !text.starts_with(|c: char| c.is_uppercase());
         self.tokens.push(Token {
             line,
             text,
             number: before.number,
             is_blacks: before.dots,
-            fault: torn.then_some("follows a letter that may be its piece"),
+            letter: before.letter,
+            fault: None,
         });
     }
 
@@ -456,4 +479,10 @@ impl ScannedGame {
         }
         self
     }
+}
+
+/// Whether a tag of that name, or a text that may hold one, says where a game starts.
+fn says_start(text: &str) -> bool {
+    let text = text.to_ascii_lowercase();
+    ["fen", "setup", "variant"].iter().any(|name| text.contains(name))
 }

@@ -23,6 +23,11 @@ impl Selection {
     pub fn contains(&self, number: usize) -> bool {
         self.0.iter().any(|range| range.contains(&number))
     }
+
+    /// The highest number that is selected by name.
+    pub fn highest(&self) -> usize {
+        self.0.iter().map(|range| *range.end()).max().unwrap_or(0)
+    }
 }
 
 impl FromStr for Selection {

@@ -109,9 +109,9 @@ impl Iterator for Games {
                 }
             };
             if scanned.is_no_game() {
-                let line = scanned.line;
-                let text = scanned.tokens.first().map_or("", |token| &token.text);
-                self.strays.push(Problem::new(line, text, "begins a text that is no game", false));
+                let what = "begins a text that is no game";
+                let first = scanned.tokens.first();
+                self.strays.extend(first.map(|t| Problem::new(t.line, &t.text, what, false)));
                 self.strays.extend(scanned.problems);
                 continue;
             }

@@ -55,7 +55,7 @@ fn unnumbered(word: &str) -> Option<Word> {
     if let Some(result) = result(word) {
         return Some(Word::Result(result));
     }
-    let bare = word.trim_end_matches(['!', '?', '.']);
+    let bare = without_evaluation(word.trim_end_matches(GLYPHS)).trim_end_matches(GLYPHS);
     let alphanumerics = bare.chars().filter(|c| c.is_alphanumeric()).count();
     let nag = word.strip_prefix('$').is_some_and(|n| n.parse::<u32>().is_ok());
     Some(match alphanumerics {
@@ -73,6 +73,19 @@ fn unnumbered(word: &str) -> Option<Word> {
         },
         _ => Word::Move(bare.to_owned()),
     })
+}
+
+const GLYPHS: [char; 3] = ['!', '?', '.'];
+
+/// A move without the evaluation that is glued to it (`Nf3+-`, but `Nf3+` is a check).
+fn without_evaluation(word: &str) -> &str {
+    const EVALUATIONS: [&str; 13] =
+        ["+/-", "-/+", "+/=", "=/+", "+-", "-+", "+=", "=+", "=", "±", "∓", "⩲", "⩱"];
+    EVALUATIONS
+        .iter()
+        .find_map(|evaluation| word.strip_suffix(evaluation))
+        .filter(|rest| rest.ends_with(|c: char| c.is_alphanumeric() || GLYPHS.contains(&c)))
+        .unwrap_or(word)
 }
 
 fn result(word: &str) -> Option<&'static str> {
@@ -115,7 +128,7 @@ pub fn parse_tag(raw: &str) -> Option<(String, String)> {
     let inner = inner.strip_suffix(']').unwrap_or(inner).trim_end();
     let (name, quoted) = inner.split_at(inner.find([' ', '\t', '"'])?);
     let named =
-        !name.is_empty() && name.chars().all(|c| c.is_alphanumeric() || c == '_' || c == '-');
+        !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-');
     let quoted = quoted.trim_start().strip_prefix('"')?.strip_suffix('"')?;
     let mut value = String::with_capacity(quoted.len());
     let mut characters = quoted.chars().peekable();
@@ -185,6 +198,10 @@ mod tests {
             ("1-0", vec![Word::Result("1-0")]),
             ("1–0.", vec![Word::Result("1-0")]),
             ("½", vec![Word::Result("1/2-1/2")]),
+            ("Nf3+-", vec![a_move("Nf3")]),
+            ("Nf3!?±", vec![a_move("Nf3")]),
+            ("Nf3+", vec![a_move("Nf3+")]),
+            ("O-O=", vec![a_move("O-O")]),
             ("+-", vec![Word::Annotation]),
             ("=", vec![Word::Annotation]),
             ("!?", vec![Word::Annotation]),

@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::PathBuf;
 
-use super::{JobError, Progress, say_problems, shown};
+use super::{JobError, Progress, say_missing, say_problems, shown};
 use crate::game::{Game, Selection, Source, shortened};
 use crate::notation::Color;
 
@@ -57,6 +57,7 @@ pub fn inspect(
         if selected == 0 {
             return Err(JobError::NothingSelected { file, games: seen });
         }
+        say_missing(&file, job.selection.as_ref(), seen, progress);
     }
     out.flush().map_err(JobError::Write)?;
     Ok(partial)

@@ -17,7 +17,7 @@ pub use studio::PictureSettings;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::game::{Game, Moment, SourceError, printable};
+use crate::game::{Game, Moment, Selection, SourceError, printable};
 use crate::geometry::ProfileError;
 use crate::output::OutputError;
 
@@ -78,5 +78,12 @@ fn shown(path: &Path) -> String {
 fn say_problems(file: &str, game: &Game, progress: &dyn Progress) {
     for problem in &game.problems {
         progress.say(&format!("{file}: game {}, {problem}", game.number));
+    }
+}
+
+/// Tells when a selection names games that a file of so many games does not have.
+fn say_missing(file: &str, selection: Option<&Selection>, games: usize, progress: &dyn Progress) {
+    if let Some(highest) = selection.map(Selection::highest).filter(|highest| *highest > games) {
+        progress.say(&format!("{file}: game {highest} is selected, but it has {games}"));
     }
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::report::{FrameRow, Manifest, ReportLine, Status, tags, texts};
 use super::studio::{PictureSettings, Studio};
-use super::{JobError, MAX_FRAMES, Progress, say_problems, shown};
+use super::{JobError, MAX_FRAMES, Progress, say_missing, say_problems, shown};
 use crate::game::{Absent, Game, Moment, Problem, Selection, Source, printable, shortened};
 use crate::notation::Color;
 use crate::output::{
@@ -134,6 +134,7 @@ fn read_batch(
     if games.is_empty() {
         return Err(JobError::NothingSelected { file, games: seen });
     }
+    say_missing(&file, job.selection.as_ref(), seen, progress);
     Ok(Batch { file, folder, games })
 }
 
