@@ -11,6 +11,16 @@ fn here(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
 }
 
+/// The collection's folder, where it is there.
+fn collection() -> Option<PathBuf> {
+    let folder = here("../shared/games");
+    if !folder.is_dir() {
+        eprintln!("skipped: there is no folder {}", folder.display());
+        return None;
+    }
+    Some(folder)
+}
+
 fn read(path: &Path) -> Vec<Game> {
     Source::open(path).unwrap().games().collect::<Result<_, _>>().unwrap()
 }
@@ -95,11 +105,9 @@ fn every_game_is_what_it_is_known_to_be() {
 
 #[test]
 fn the_collection_beside_the_repository_is_read_whole() {
-    let folder = here("../shared/games");
-    if !folder.is_dir() {
-        eprintln!("skipped: there is no folder {}", folder.display());
+    let Some(folder) = collection() else {
         return;
-    }
+    };
     let cases = [
         ("lichess_db_1000k.pgn", 438, 28_538),
         ("twic1599_1000k.pgn", 1110, 101_487),
@@ -126,11 +134,9 @@ fn the_collection_beside_the_repository_is_read_whole() {
 
 #[test]
 fn the_same_games_with_and_without_a_bom_are_the_same() {
-    let folder = here("../shared/games");
-    if !folder.is_dir() {
-        eprintln!("skipped: there is no folder {}", folder.display());
+    let Some(folder) = collection() else {
         return;
-    }
+    };
     let [ansi, utf8] = ["Morphy_ANSI.pgn", "Morphy_UTF8.pgn"].map(|file| read(&folder.join(file)));
     for (a, b) in ansi.iter().zip(&utf8) {
         assert_eq!((a.line, &a.tags, &a.result), (b.line, &b.tags, &b.result));

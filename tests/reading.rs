@@ -220,6 +220,12 @@ fn an_unclosed_comment_does_not_swallow_the_next_game() {
         "[White \"a\"]\n\n1. e4 {never\n[White \"b\"]\n\n1. d4 d5 *\n",
         &["e4 * | line 3: `{` opens a comment that is never closed", "d4 d5 *"],
     );
+    // Behind a result it hides nothing.
+    assert_told(
+        "[White \"a\"]\n\n1. e4 1-0 {never\n[White \"b\"]\n\n1. d4 *\n",
+        &["e4 1-0 | line 3: `{` opens a comment that is never closed", "d4 *"],
+    );
+    assert!(read("[White \"a\"]\n\n1. e4 1-0 {never\n[White \"b\"]\n\n1. d4 *\n")[0].is_whole());
     // Before the first game, too.
     assert_told(
         "{ never\n\n[Event \"a\"]\n\n1. e4 *\n\n[Event \"b\"]\n\n1. d4 *\n",

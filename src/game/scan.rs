@@ -234,11 +234,12 @@ impl<R: BufRead> Scanner<R> {
                 None => break,
             }
         }
-        // Before a game it hides nothing of the one that begins within.
-        let hides_moves = game.is_some() || self.begun.is_none();
+        // Before a game, or behind a result, it hides nothing when a game begins within.
+        let hides_moves =
+            self.begun.is_none() || game.as_ref().is_some_and(|game| !game.has_ended());
         let what = "opens a comment that is never closed";
         let problem = Problem::new(opened, "{", what, hides_moves);
-        match self.begun.as_mut().filter(|_| !hides_moves) {
+        match self.begun.as_mut().filter(|_| game.is_none()) {
             Some(begun) => begun.problems.push(problem),
             None => game.get_or_insert_with(|| ScannedGame::at(opened)).problems.push(problem),
         }
@@ -302,15 +303,17 @@ impl<R: BufRead> Scanner<R> {
         }
         // Blanks that are not ASCII (a no-break space) may stand within.
         let words: Vec<Word> = text.split_whitespace().flat_map(classify).collect();
-        let goes_on = words.iter().any(|word| match word {
-            Word::Number { .. } => true,
-            Word::Move(text) => movetext::is_move(text),
-            _ => false,
-        });
+        let goes_on = || {
+            words.iter().any(|word| match word {
+                Word::Number { .. } => true,
+                Word::Move(text) => movetext::is_move(text),
+                _ => false,
+            })
+        };
         let from_one = matches!(words.first(), Some(Word::Number { number: 1, dots: 1 }));
         let begins = |game: &ScannedGame| {
             let again = from_one && at_line_start && game.before.number.is_none();
-            game.has_ended() && goes_on || again && game.tokens.len() > 1
+            game.has_ended() && goes_on() || again && game.tokens.len() > 1
         };
         if game.as_ref().is_some_and(begins) {
             let mut next = ScannedGame::at(line);

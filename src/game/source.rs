@@ -29,7 +29,7 @@ pub enum SourceError {
         Some(problem) => format!("{problem}"),
         None => "expected tags or moves in PGN".to_owned(),
     })]
-    NoGames { name: String, problem: Option<super::Problem> },
+    NoGames { name: String, problem: Option<Problem> },
     #[error("{name}: cannot be read")]
     Io {
         name: String,

@@ -25,13 +25,16 @@ pub enum ProfileError {
     BadHeight { point: usize, height: f64 },
     #[error("a profile begins and ends on its axis (radius 0), found {first} and {last}")]
     OffAxis { first: f64, last: f64 },
+    #[error("all points of the profile lie on its axis, expected a radius above 0")]
+    NoBody,
 }
 
 impl Profile {
     /// Takes control points from the bottom of the axis, round the outside, to its top.
     ///
     /// # Errors
-    /// Too few points, a radius below zero, a number that is not finite, or an end off the axis.
+    /// Too few points, a radius below zero, a number that is not finite, an end off the axis, or all
+    /// points on it.
     pub fn new(points: Vec<ControlPoint>) -> Result<Profile, ProfileError> {
         let [first, .., last] = points.as_slice() else {
             return Err(ProfileError::TooShort(points.len()));
@@ -50,6 +53,9 @@ impl Profile {
         }
         if first.at.x != 0.0 || last.at.x != 0.0 {
             return Err(ProfileError::OffAxis { first: first.at.x, last: last.at.x });
+        }
+        if points.iter().all(|point| point.at.x == 0.0) {
+            return Err(ProfileError::NoBody);
         }
         Ok(Profile(points))
     }
@@ -134,6 +140,10 @@ mod tests {
                 "point 2 of the profile has the height NaN",
             ),
             (points(&[(0.0, 0.0, true), (1.0, 1.0, true), (0.5, 2.0, true)]), "found 0 and 0.5"),
+            (
+                points(&[(0.0, 0.0, true), (0.0, 1.0, true), (0.0, 2.0, true)]),
+                "all points of the profile lie on its axis",
+            ),
         ];
         for (list, message) in cases {
             let error = Profile::new(list).unwrap_err().to_string();
