@@ -133,9 +133,10 @@ fn read_section<T>(section: &Section, keys: &[Key<T>], target: &mut T, faults: &
 }
 
 fn unknown<'a>(what: &str, name: &str, known: impl IntoIterator<Item = &'a str>) -> String {
-    match nearest(name, known) {
+    let known: Vec<&str> = known.into_iter().collect();
+    match nearest(name, known.iter().copied()) {
         Some(near) => format!("there is no {what} `{name}`, did you mean `{near}`?"),
-        None => format!("there is no {what} `{name}`"),
+        None => format!("there is no {what} `{name}`, expected one of {}", known.join(", ")),
     }
 }
 
@@ -167,10 +168,8 @@ fn light_sections(
         }
     }
     for (number, _) in described.iter().enumerate().filter(|(_, described)| !**described) {
-        faults.push(Fault {
-            line: 0,
-            message: format!("LightCount or a section speaks of light {number}, expected a section [Light{number}]"),
-        });
+        let message = format!("{count} lights are spoken of, expected a section [Light{number}]");
+        faults.push(Fault { line: 0, message });
     }
     config.lights = lights.into_iter().flatten().collect();
 }
@@ -226,6 +225,10 @@ mod tests {
                 "line 2: BackgroundColor is `0,0`, expected three numbers from 0 to 1",
             ),
             ("[GlobalSettings]\nModelCount=1", "line 2: ModelCount is `1`, expected 0"),
+            (
+                "[Camera]\nXyzzy=0",
+                "line 2: there is no key `Xyzzy`, expected one of Position, LookAt, FOV, ZRot",
+            ),
             ("[Camera]\nFOV=0", "line 2: FOV is `0`, expected a number from 1 to 340"),
             ("[Camera]\nFOV=90\nfov=80", "line 3: FOV is given here a second time in [Camera]"),
             ("[Camera]\nPosition=1,2,inf", "line 2: Position is `1,2,inf`, expected three numbers"),
