@@ -17,12 +17,13 @@
 //! | [`game`] | reading PGN into games; selection | notation |
 //! | [`timeline`] | frames: at time *t* a placement, the movers between squares, each piece's identity | game, notation |
 //! | [`config`] | `config.ini`, typed and range-checked | – |
-//! | [`assets`] | piece sets as data | config, geometry |
+//! | [`assets`] | piece sets as data, bitmaps | config, geometry |
 //! | [`geometry`] | rays, spans, bounds, transforms, curves, and one file a shape | – |
-//! | [`scene`] | materials, textures, lights, camera, board and pieces; builds a [`scene::Scene`] from a frame | geometry, config, assets, notation, timeline |
+//! | [`scene`] | materials, textures, lights, camera, board, clock and pieces; builds a [`scene::Scene`] from a frame | geometry, config, assets, notation, timeline |
 //! | [`tracer`] | rays through a whole scene, shading, antialiasing; a picture in memory | geometry, scene |
+//! | [`export`] | a scene as another renderer's text | geometry, scene, assets, config |
 //! | [`output`] | pictures, manifests, reports; whole files only | – |
-//! | [`job`] | what to render: game → timeline → scene → tracer → output; inspect; diagram | all of the above |
+//! | [`job`] | what to render: game → timeline → scene → tracer → output; inspect; diagram; export; bench | all of the above |
 //!
 //! The binary (`main`, `cli`, `progress`, `signals`) turns arguments into a typed job, shows how far it is,
 //! and sets the exit code; it alone prints. A test holds the imports against this table.
@@ -32,6 +33,7 @@
 
 pub mod assets;
 pub mod config;
+pub mod export;
 pub mod game;
 pub mod geometry;
 pub mod job;

@@ -9,11 +9,11 @@ use std::process::ExitCode;
 
 use anstyle::{AnsiColor, Style};
 use anyhow::Context;
-use lightsquare::job::{self, JobError, PictureSettings, Progress};
+use lightsquare::job::{self, DiagramJob, JobError, Measurement, PictureSettings, Progress};
 use lightsquare::tracer::RayCounts;
 
-use cli::{Cli, Command, UsageError};
-use progress::Terminal;
+use cli::{Cli, Command, Request, UsageError};
+use progress::{ProgressMode, Terminal, Verbosity};
 use signals::Signals;
 
 const WRONG_USAGE: u8 = 2;
@@ -30,9 +30,21 @@ fn main() -> ExitCode {
     })
 }
 
-fn run(cli: Cli) -> anyhow::Result<ExitCode> {
+fn run(request: Request) -> anyhow::Result<ExitCode> {
+    let cli = match request {
+        Request::Command(cli) => cli,
+        Request::Thesis(arguments) => {
+            let signals = Signals::default();
+            let terminal = Terminal::new(ProgressMode::Auto, Verbosity::Normal, signals);
+            return diagram(&cli::thesis_job(&arguments)?, &terminal);
+        }
+    };
     let Cli { command, messages } = cli;
     let terminal = |signals| Terminal::new(messages.progress, messages.verbosity(), signals);
+    if let Some(picture) = command.picture().filter(|picture| picture.print_config) {
+        write!(io::stdout(), "{}", picture.settings()?.config.to_ini())?;
+        return Ok(ExitCode::SUCCESS);
+    }
     match command {
         Command::Render(args) => {
             let job = args.into_job()?;
@@ -57,13 +69,22 @@ fn run(cli: Cli) -> anyhow::Result<ExitCode> {
                 None => whole(summary.partial + summary.skipped == 0),
             })
         }
-        Command::Diagram(args) => {
+        Command::Diagram(args) => diagram(&args.into_job()?, &terminal(Signals::default())),
+        Command::Export(args) => {
             let job = args.into_job()?;
             let terminal = terminal(Signals::default());
             tell_config(&terminal, &job.picture);
-            let summary = job::diagram(&job, &terminal, &mut io::stdout().lock())?;
-            terminal.detail(&rays(&summary.rays));
-            Ok(whole(summary.is_whole))
+            Ok(whole(job::export(&job, &terminal, &mut io::stdout().lock())?))
+        }
+        Command::Bench(args) => {
+            let measurements = job::bench(&args.to_job())?;
+            let mut out = io::stdout().lock();
+            if args.json {
+                writeln!(out, "{}", serde_json::to_string_pretty(&measurements)?)?;
+            } else {
+                write!(out, "{}", table(&measurements))?;
+            }
+            Ok(ExitCode::SUCCESS)
         }
         Command::Inspect(args) => {
             let terminal = terminal(Signals::default());
@@ -79,6 +100,30 @@ fn run(cli: Cli) -> anyhow::Result<ExitCode> {
     }
 }
 
+fn diagram(job: &DiagramJob, terminal: &Terminal) -> anyhow::Result<ExitCode> {
+    tell_config(terminal, &job.picture);
+    let summary = job::diagram(job, terminal, &mut io::stdout().lock())?;
+    terminal.detail(&rays(&summary.rays));
+    Ok(whole(summary.is_whole))
+}
+
+/// Measurements as lines for people.
+fn table(measurements: &[Measurement]) -> String {
+    let mut lines = String::from(
+        "start position, 1000x600          seconds   thesis    times   primary    shadow reflected  Mrays/s/core\n",
+    );
+    for Measurement { setting, seconds, thesis_seconds, rays, mrays_per_second_and_core, .. } in
+        measurements
+    {
+        let times = thesis_seconds / seconds;
+        lines += &format!(
+            "{setting:32} {seconds:8.3} {thesis_seconds:8.0} {times:8.0} {:9} {:9} {:9} {mrays_per_second_and_core:13.2}\n",
+            rays.primary, rays.shadow, rays.reflected,
+        );
+    }
+    lines
+}
+
 fn whole(is_whole: bool) -> ExitCode {
     if is_whole { ExitCode::SUCCESS } else { ExitCode::from(INCOMPLETE) }
 }
@@ -91,6 +136,8 @@ fn tell_config(terminal: &Terminal, picture: &PictureSettings) {
 }
 
 fn rays(counts: &RayCounts) -> String {
-    let RayCounts { primary, shadow, reflected } = counts;
-    format!("rays: {primary} primary, {shadow} shadow, {reflected} reflected")
+    let RayCounts { primary, shadow, reflected, refracted } = counts;
+    format!(
+        "rays: {primary} primary, {shadow} shadow, {reflected} reflected, {refracted} refracted"
+    )
 }

@@ -287,7 +287,11 @@ fn bad_input_gets_a_sentence_and_leaves_nothing_behind() {
             1,
             "game.pgn: game 1 has no position 9w, it goes from start to 1w",
         ),
-        (&["diagram", "game.pgn", "-o", "x.jpg"], 2, "--output: pictures are PNG, found `.jpg`"),
+        (
+            &["diagram", "game.pgn", "-o", "x.jpg"],
+            2,
+            "--output: expected a .png or .bmp file, found `x.jpg`",
+        ),
         (&["diagram", "game.pgn", "--select", "x"], 2, "expected a whole number from 1"),
         (
             &["render", "game.pgn", "--cpu", "x"],

@@ -4,12 +4,15 @@ use glam::{DVec2, DVec3};
 use lightsquare::assets::{PieceSet, thesis_set};
 use lightsquare::geometry::transform::{rotation_x, rotation_y, rotation_z, scale, translation};
 use lightsquare::geometry::{
-    ControlPoint, Csg, Cuboid, Interval, Lathe, Profile, Ray, Solid, Spans, Sphere,
+    ControlPoint, Csg, Cuboid, Interval, Lathe, Normals, Outline, Prism, Profile, Ray, Solid,
+    Spans, Sphere,
 };
 use proptest::prelude::*;
 use std::sync::LazyLock;
 
-static SET: LazyLock<PieceSet> = LazyLock::new(|| thesis_set(4).unwrap());
+static SET: LazyLock<PieceSet> = LazyLock::new(|| thesis_set(4, Normals::Flat).unwrap());
+
+static SMOOTH: LazyLock<PieceSet> = LazyLock::new(|| thesis_set(3, Normals::Smooth).unwrap());
 
 fn solids() -> Vec<(&'static str, Csg)> {
     let sphere = || Csg::leaf(Sphere { center: DVec3::new(0.3, 1.0, -0.2), radius: 1.2 });
@@ -18,7 +21,17 @@ fn solids() -> Vec<(&'static str, Csg)> {
         let turn = rotation_x(20.0) * rotation_y(-50.0) * rotation_z(75.0);
         cuboid().placed(translation(DVec3::Y) * turn * scale(1.3))
     };
+    let prism = |steps, normals| {
+        let points = [(-1.5, 0.2), (0.4, -0.5), (1.6, 0.4), (0.5, 1.0), (1.2, 3.0), (-0.8, 2.0)];
+        let control = points.map(|(x, y)| ControlPoint { at: DVec2::new(x, y), corner: x > 1.0 });
+        let outline = Outline::new(control.to_vec()).unwrap();
+        Csg::leaf(Prism::new(&outline, steps, normals, -0.7, 1.1).unwrap())
+    };
     vec![
+        ("prism", prism(0, Normals::Flat)),
+        ("rounded prism", prism(3, Normals::Smooth)),
+        ("carved prism", prism(3, Normals::Smooth).minus(sphere()).and(turned())),
+        ("smooth queen", SMOOTH.queen.clone()),
         ("sphere", sphere()),
         ("cuboid", cuboid()),
         ("turned cuboid", turned()),
@@ -127,7 +140,8 @@ fn rays_on_an_axis_meet_what_lies_on_it() {
 fn flat_tops_have_no_holes() {
     let corner = |u, v| ControlPoint { at: DVec2::new(u, v), corner: true };
     let corners = [corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 3.86), corner(0.0, 3.86)];
-    let drum = Csg::leaf(Lathe::new(&Profile::new(corners.to_vec()).unwrap(), 0));
+    let drum =
+        Csg::leaf(Lathe::new(&Profile::new(corners.to_vec()).unwrap(), 0, Normals::Flat).unwrap());
     for drum in [drum.clone(), drum.placed(scale(1.7))] {
         let height = drum.bounds().max.y;
         for step in 0..4000 {

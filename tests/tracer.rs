@@ -2,26 +2,32 @@
 
 use std::sync::Arc;
 
-use glam::{DAffine3, DVec3};
-use lightsquare::config::{self, Light};
-use lightsquare::geometry::{Cuboid, Placed, Solid, Sphere};
-use lightsquare::scene::{Camera, Material, Object, Scene, Texture};
+use glam::{DAffine3, DVec2, DVec3};
+use lightsquare::config::{self, Finish, Light};
+use lightsquare::geometry::{Cuboid, Placed, Plane, Solid, Sphere};
+use lightsquare::scene::{Camera, Material, Object, Scene, Surface, Texture};
 use lightsquare::tracer::{Antialiasing, RayCounts, render};
 
 const WHITE: DVec3 = DVec3::ONE;
 
-fn matte(solid: impl Solid + 'static, color: DVec3) -> Object {
+const MATTE: Finish = Finish {
+    ambient: 0.2,
+    diffuse: 0.5,
+    specular: 0.0,
+    shininess: 1.0,
+    reflectivity: 0.0,
+    transparency: 0.0,
+};
+
+fn made_of(solid: impl Solid + 'static, finish: Finish, color: DVec3) -> Object {
     Object {
         body: Placed::new(Arc::new(solid), DAffine3::IDENTITY),
-        material: Material {
-            ambient: 0.2,
-            diffuse: 0.5,
-            specular: 0.0,
-            shininess: 1.0,
-            reflectivity: 0.0,
-            texture: Texture::Plain(color),
-        },
+        surface: Surface::Uniform(Material { finish, texture: Texture::Plain(color) }),
     }
+}
+
+fn matte(solid: impl Solid + 'static, color: DVec3) -> Object {
+    made_of(solid, MATTE, color)
 }
 
 fn ball(center: DVec3, radius: f64) -> Sphere {
@@ -45,6 +51,8 @@ fn from_above(objects: Vec<Object>) -> Scene {
         }),
         background: DVec3::new(0.0, 0.0, 0.4),
         max_depth: 5,
+        max_distance: 1e9,
+        snell_index: 1.5,
     }
 }
 
@@ -89,8 +97,7 @@ fn a_body_behind_the_light_casts_no_shadow() {
 
 #[test]
 fn a_mirror_adds_its_share_of_what_it_shows() {
-    let mut mirror = matte(floor(), WHITE);
-    mirror.material.reflectivity = 0.5;
+    let mirror = made_of(floor(), Finish { reflectivity: 0.5, ..MATTE }, WHITE);
     let (color, rays) = middle(&from_above(vec![mirror]));
     assert_color(color, [0.7, 0.7, 0.7 + 0.5 * 0.4]);
     assert_eq!(rays.reflected, 1);
@@ -98,23 +105,18 @@ fn a_mirror_adds_its_share_of_what_it_shows() {
 
 #[test]
 fn between_two_mirrors_the_depth_ends_the_ray() {
-    let mut below = matte(floor(), WHITE);
-    below.material.reflectivity = 0.5;
-    let mut above = matte(
-        Cuboid { min: DVec3::new(-50.0, 20.0, -50.0), max: DVec3::new(50.0, 21.0, 50.0) },
-        WHITE,
-    );
-    above.material.reflectivity = 0.5;
-    let mut scene = from_above(vec![below, above]);
+    let mirror = Finish { reflectivity: 0.5, ..MATTE };
+    let ceiling = Cuboid { min: DVec3::new(-50.0, 20.0, -50.0), max: DVec3::new(50.0, 21.0, 50.0) };
+    let mut scene =
+        from_above(vec![made_of(floor(), mirror, WHITE), made_of(ceiling, mirror, WHITE)]);
     scene.max_depth = 3;
     assert_eq!(middle(&scene).1.reflected, 3);
 }
 
 #[test]
 fn the_highlight_is_the_lights_color_where_the_mirror_shows_the_light() {
-    let mut shiny = matte(floor(), DVec3::new(1.0, 0.0, 0.0));
-    shiny.material.specular = 0.25;
-    shiny.material.shininess = 50.0;
+    let finish = Finish { specular: 0.25, shininess: 50.0, ..MATTE };
+    let shiny = made_of(floor(), finish, DVec3::X);
     assert_color(middle(&from_above(vec![shiny])).0, [0.95, 0.25, 0.25]);
 }
 
@@ -127,4 +129,127 @@ fn a_grid_takes_the_mean_of_its_rays() {
     assert_eq!(rays.primary, 16);
     let blue = f64::from(picture.get_pixel(0, 0).0[2]) / 255.0;
     assert!((blue - (0.7 + 0.4) / 2.0).abs() < 0.03, "{blue}");
+}
+
+/// Glass that scatters nothing and lets everything through.
+const CLEAR: Finish = Finish { ambient: 0.0, diffuse: 0.0, transparency: 1.0, ..MATTE };
+
+/// A slab between the camera and the floor.
+fn pane() -> Cuboid {
+    Cuboid { min: DVec3::new(-50.0, 4.0, -50.0), max: DVec3::new(50.0, 5.0, 50.0) }
+}
+
+#[test]
+fn what_stands_behind_glass_is_seen_through_both_of_its_faces() {
+    let tinted = Finish { transparency: 0.5, ..CLEAR };
+    let floor = || matte(floor(), WHITE);
+    let (clear, rays) = middle(&from_above(vec![made_of(pane(), CLEAR, WHITE), floor()]));
+    assert_color(clear, [0.7, 0.7, 0.7]);
+    // Into the pane and out of it; both of its faces and the floor ask for the light.
+    assert_eq!((rays.refracted, rays.shadow), (2, 3));
+    // Light loses half at each face on its way to the floor, and again on its way back.
+    let shaded = 0.2 + 0.5 * 0.25;
+    let (half, _) = middle(&from_above(vec![made_of(pane(), tinted, WHITE), floor()]));
+    assert_color(half, [shaded * 0.25; 3]);
+}
+
+/// Through a ball the picture stands on its head: what is on the left is seen on the right.
+#[test]
+fn a_glass_ball_turns_the_picture_over() {
+    let half = Cuboid { min: DVec3::new(0.0, -1.0, -50.0), max: DVec3::new(50.0, 0.0, 50.0) };
+    let mut scene = from_above(vec![
+        matte(half, DVec3::X),
+        made_of(ball(DVec3::new(0.0, 6.0, 0.0), 0.8), CLEAR, WHITE),
+    ]);
+    scene.lights.clear();
+    let (picture, _) = render(&scene, 21, 21, Antialiasing::None);
+    let red = |x: u32| picture.get_pixel(x, 10).0[0] > 0;
+    // Beside the ball as it is, within it the other way round.
+    assert_eq!([0, 20].map(red), [false, true]);
+    assert_eq!([8, 12].map(red), [true, false]);
+}
+
+#[test]
+fn within_one_glass_another_of_the_same_index_is_not_seen() {
+    let mut scene = from_above(vec![
+        matte(
+            Cuboid { min: DVec3::new(1.0, -1.0, -50.0), max: DVec3::new(50.0, 0.0, 50.0) },
+            WHITE,
+        ),
+        made_of(pane(), CLEAR, WHITE),
+    ]);
+    let alone = render(&scene, 40, 1, Antialiasing::None).0;
+    let inner = Cuboid { min: DVec3::new(-3.0, 4.2, -3.0), max: DVec3::new(2.0, 4.8, 3.0) };
+    scene.objects.push(made_of(inner, CLEAR, WHITE));
+    scene.max_depth = 9;
+    assert_eq!(render(&scene, 40, 1, Antialiasing::None).0, alone);
+}
+
+#[test]
+fn a_camera_within_glass_sees_out_of_it() {
+    let around = Cuboid { min: DVec3::splat(-20.0), max: DVec3::splat(20.0) };
+    let mut scene = from_above(vec![made_of(around, CLEAR, WHITE)]);
+    assert_color(middle(&scene).0, [0.0, 0.0, 0.4]);
+    // From within, a wide view meets the walls beyond the critical angle: they are mirrors.
+    scene.camera = Camera::new(&config::Camera {
+        position: DVec3::new(0.0, 10.0, 0.0),
+        look_at: DVec3::new(1.0, 9.0, 0.0),
+        fov: 10.0,
+        z_rot: 0.0,
+    });
+    scene.max_depth = 1;
+    assert_color(middle(&scene).0, [0.0, 0.0, 0.0]);
+}
+
+#[test]
+fn a_plane_has_no_end_but_sight_may() {
+    let mut scene = from_above(vec![matte(Plane::new(DVec3::ZERO, DVec3::Y * 7.0), WHITE)]);
+    assert_color(middle(&scene).0, [0.7, 0.7, 0.7]);
+    scene.max_distance = 9.0;
+    assert_color(middle(&scene).0, [0.0, 0.0, 0.4]);
+}
+
+/// A picture with edges of bodies, shadows and squares.
+fn busy() -> Scene {
+    let squares = |color| Material { finish: MATTE, texture: Texture::Plain(color) };
+    let mut chequered = matte(floor(), WHITE);
+    chequered.surface = Surface::Chequer {
+        origin: DVec2::ZERO,
+        side: 1.7,
+        materials: [squares(DVec3::X), squares(DVec3::Z)],
+    };
+    let mut scene = from_above(vec![chequered, matte(ball(DVec3::new(1.0, 2.0, 0.5), 1.5), WHITE)]);
+    scene.lights[0].position = DVec3::new(-30.0, 40.0, 10.0);
+    scene
+}
+
+#[test]
+fn adaptive_pixels_are_those_of_the_grid_or_of_a_single_ray() {
+    let scene = busy();
+    // More rows than are in hand at a time.
+    let (width, height) = (50, 150);
+    let picture = |mode| render(&scene, width, height, mode);
+    let (adaptive, rays) = picture(Antialiasing::Adaptive { rays: 3, threshold: 0.05 });
+    let (grid, all) = picture(Antialiasing::Grid(3));
+    let (single, _) = picture(Antialiasing::None);
+    let pixels = adaptive.pixels().zip(grid.pixels()).zip(single.pixels());
+    assert!(pixels.clone().all(|((pixel, grid), single)| pixel == grid || pixel == single));
+    // Where the two differ much, an edge is, and the grid is right.
+    let far = |a: u8, b: u8| a.abs_diff(b) > 20;
+    for ((pixel, grid), single) in pixels {
+        let is_edge = grid.0.iter().zip(single.0).any(|(a, b)| far(*a, b));
+        assert!(!is_edge || pixel == grid);
+    }
+    assert!(2 * rays.total() < all.total(), "{rays:?} of {all:?}");
+}
+
+#[test]
+fn adaptive_pixels_depend_on_no_thread() {
+    let scene = busy();
+    let mode = Antialiasing::Adaptive { rays: 2, threshold: 0.05 };
+    let with = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| render(&scene, 70, 140, mode))
+    };
+    assert_eq!(with(1), with(3));
 }

@@ -9,7 +9,7 @@ use glam::{DAffine3, DVec2, DVec3};
 
 use super::PieceSet;
 use crate::geometry::transform::{rotation_y, rotation_z, scale, translation};
-use crate::geometry::{ControlPoint, Csg, Cuboid, Lathe, Profile, ProfileError, Sphere};
+use crate::geometry::{ControlPoint, Csg, Cuboid, CurveError, Lathe, Normals, Profile, Sphere};
 
 /// World units of a millimetre: a square is 57 mm and 4 units wide.
 const MILLIMETRE: f64 = 4.0 / 57.0;
@@ -126,8 +126,8 @@ const KNIGHT_BASE: [Point; 9] = [
 ///
 /// # Errors
 /// When a profile is none; the built-in ones are tested.
-pub fn thesis_set(subdivisions: u32) -> Result<PieceSet, ProfileError> {
-    let turned = |points: &[Point]| turned(points, subdivisions);
+pub fn thesis_set(subdivisions: u32, normals: Normals) -> Result<PieceSet, CurveError> {
+    let turned = |points: &[Point]| turned(points, subdivisions, normals);
     Ok(PieceSet {
         pawn: tall(50.0, turned(&PAWN)?),
         knight: tall(60.0, turned(&KNIGHT_BASE)?.or(horse())),
@@ -143,11 +143,11 @@ fn tall(millimetres: f64, piece: Csg) -> Csg {
     piece.placed(scale(millimetres * MILLIMETRE))
 }
 
-fn turned(points: &[Point], subdivisions: u32) -> Result<Csg, ProfileError> {
+fn turned(points: &[Point], subdivisions: u32, normals: Normals) -> Result<Csg, CurveError> {
     let control =
         points.iter().map(|&(u, v, corner)| ControlPoint { at: DVec2::new(u, v), corner });
     let profile = Profile::new(control.collect())?;
-    Ok(Csg::leaf(Lathe::new(&profile, subdivisions)))
+    Ok(Csg::leaf(Lathe::new(&profile, subdivisions, normals)?))
 }
 
 /// A box by half-sizes and middle, with a turn about its middle.
@@ -268,7 +268,7 @@ mod tests {
 
     #[test]
     fn heights_and_bases_follow_the_equipment_standard() {
-        let set = thesis_set(4).unwrap();
+        let set = thesis_set(4, Normals::Flat).unwrap();
         for (piece, height) in all(&set).into_iter().zip([95.0, 85.0, 70.0, 60.0, 55.0, 50.0]) {
             let found = millimetres(piece);
             assert!((found - height).abs() < 0.01 * height, "{found} is not {height}");
@@ -281,7 +281,7 @@ mod tests {
 
     #[test]
     fn a_diagonal_mover_clears_any_two_neighbours() {
-        let set = thesis_set(4).unwrap();
+        let set = thesis_set(4, Normals::Flat).unwrap();
         let mut reaches = all(&set).map(reach);
         reaches.sort_by(f64::total_cmp);
         let widest = reaches[4] + reaches[5];

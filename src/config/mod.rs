@@ -1,14 +1,27 @@
 //! `config.ini` in the thesis's format, as typed and range-checked settings.
+//!
+//! A new key is a field of a settings type and a line in the table of its section.
 
 mod ini;
 mod keys;
+mod material;
+mod model;
 mod nearest;
+mod sections;
+mod values;
 
-pub use keys::MAX_SIDE;
-use nearest::nearest;
+pub use material::{Axis, Finish, Mapping, Material, Texture};
+pub use model::{Model, Shape};
+pub use nearest::nearest;
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 
 use glam::DVec3;
 use serde::Serialize;
+
+/// The longest side of a picture, in pixels.
+pub const MAX_SIDE: u32 = 16_384;
 
 /// What a `config.ini` says; `Default` is what the program does without one.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -18,14 +31,21 @@ pub struct Config {
     pub height: u32,
     /// What a ray sees that meets nothing; each channel 0 to 1, as it is written to the picture.
     pub background: DVec3,
-    /// Refractive index of all transparent materials.
+    /// Refractive index of all transparent materials, 1 to 5.
     pub snell_index: f64,
     pub lights: Vec<Light>,
     pub camera: Camera,
+    pub render: Render,
+    pub board: Board,
+    pub pieces: Pieces,
+    pub clock: Clock,
+    pub models: Vec<Model>,
+    /// By name, in small letters; every name that the other settings use is here.
+    pub materials: BTreeMap<String, Material>,
 }
 
 /// A point light without falloff.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Light {
     /// In world units: 4 a square, a1 at the origin, y up.
     pub position: DVec3,
@@ -48,24 +68,100 @@ pub struct Camera {
     pub z_rot: f64,
 }
 
+/// How pictures are traced.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Render {
+    pub sampling: Sampling,
+    /// Rays along one side of a pixel, 1 to 32, where it gets more than one.
+    pub rays: u32,
+    /// How far neighbouring pixels may differ before adaptive sampling refines them, 0 to 1.
+    pub threshold: f64,
+    /// How often a ray may be reflected or refracted, 0 to 50; beyond it is black.
+    pub max_depth: u32,
+    /// World units that a ray sees, 1 to 10⁹; beyond it is the background.
+    pub max_distance: f64,
+    /// Steps of subdivision for the curves of pieces, 0 to 7.
+    pub subdivisions: u32,
+    pub normals: Normals,
+    pub filter: Filter,
+    /// Whether wood and marble are replaced by their mean colours.
+    pub plain: bool,
+}
+
+/// Where in pixels rays go (the thesis's modes 0, 1 and 2).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Sampling {
+    /// One, through the middle.
+    None,
+    /// A grid in every pixel.
+    Grid,
+    /// A grid in those pixels that differ from their neighbours.
+    Adaptive,
+}
+
+/// Whether curves are shaded as the polygons that they are made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Normals {
+    /// Yes, as in the thesis.
+    Flat,
+    /// No, as the limit curves of subdivision.
+    Smooth,
+}
+
+/// How bitmaps are read between and beyond their pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Filter {
+    /// The nearest pixel, as in the thesis.
+    Nearest,
+    /// The four pixels round a point, by their distances.
+    Bilinear,
+    /// The same in copies of the picture at halved sizes (MIP levels), so that what is far away
+    /// does not flicker.
+    Mip,
+}
+
+/// The materials of the board, by name.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Board {
+    pub light: String,
+    pub dark: String,
+    pub frame: String,
+    /// The endless table that the board lies on, if any.
+    pub table: Option<String>,
+}
+
+/// The materials of the pieces, by name.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Pieces {
+    pub white: String,
+    pub black: String,
+}
+
+/// The clock beside the board.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Clock {
+    pub show: bool,
+    /// What the two dials show, in seconds since twelve o'clock.
+    pub white: u32,
+    pub black: u32,
+    /// The material of its case, by name.
+    pub case: String,
+}
+
+/// How pictures look before any setting: a starting point for all of them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Look {
+    /// The thesis's camera and lights, Phong's model, hard shadows, flat normals.
+    #[default]
+    Thesis,
+}
+
 impl Default for Config {
     fn default() -> Config {
-        Config {
-            width: 1000,
-            height: 600,
-            background: DVec3::ZERO,
-            snell_index: 1.0,
-            lights: vec![
-                Light { position: DVec3::new(0.0, 150.0, -50.0), color: DVec3::splat(0.8) },
-                Light { position: DVec3::new(90.0, 90.0, 20.0), color: DVec3::splat(0.5) },
-            ],
-            camera: Camera {
-                position: DVec3::new(45.0, 15.0, -30.0),
-                look_at: DVec3::new(14.0, 0.0, 14.0),
-                fov: 90.0,
-                z_rot: 0.0,
-            },
-        }
+        Config::new(Look::default())
     }
 }
 
@@ -95,22 +191,85 @@ fn listed(faults: &[Fault]) -> String {
 }
 
 impl Config {
-    /// Reads the text of a `config.ini`; what it does not mention keeps its default.
+    /// The settings of a look.
+    pub fn new(look: Look) -> Config {
+        let Look::Thesis = look;
+        Config {
+            width: 1000,
+            height: 600,
+            background: DVec3::ZERO,
+            snell_index: 1.5,
+            lights: vec![
+                Light { position: DVec3::new(0.0, 150.0, -50.0), color: DVec3::splat(0.8) },
+                Light { position: DVec3::new(90.0, 90.0, 20.0), color: DVec3::splat(0.5) },
+            ],
+            camera: Camera {
+                position: DVec3::new(45.0, 15.0, -30.0),
+                look_at: DVec3::new(14.0, 0.0, 14.0),
+                fov: 90.0,
+                z_rot: 0.0,
+            },
+            render: Render {
+                sampling: Sampling::Grid,
+                rays: 2,
+                threshold: 0.05,
+                max_depth: 5,
+                max_distance: 1e9,
+                subdivisions: 4,
+                normals: Normals::Flat,
+                filter: Filter::Nearest,
+                plain: false,
+            },
+            board: Board {
+                light: "light".to_owned(),
+                dark: "dark".to_owned(),
+                frame: "frame".to_owned(),
+                table: None,
+            },
+            pieces: Pieces { white: "white".to_owned(), black: "black".to_owned() },
+            clock: Clock { show: false, white: 0, black: 0, case: "frame".to_owned() },
+            models: Vec::new(),
+            materials: material::built_in(),
+        }
+    }
+
+    /// Reads the text of a `config.ini`; what it does not mention keeps the value of `self`. Files
+    /// that it names are sought from `folder` on.
     ///
     /// Names of sections and keys count without their case; a `;` or `#` at the
     /// beginning of a line or behind a blank begins a comment.
     ///
     /// # Errors
     /// Every line that cannot be used: no section or key of that name, a value out of its range,
-    /// something said twice, and lights that `LightCount` promises but no section describes.
-    pub fn parse(text: &str) -> Result<Config, ConfigError> {
+    /// something said twice, names of materials or pictures that are not there, lights and models
+    /// that a count promises but no section describes.
+    pub fn with(self, text: &str, folder: &Path) -> Result<Config, ConfigError> {
         let (document, mut faults) = ini::read(text);
-        let config = keys::interpret(&document, &mut faults);
+        let config = sections::interpret(&document, self, folder, &mut faults);
         if faults.is_empty() {
             Ok(config)
         } else {
             faults.sort_by_key(|fault| fault.line);
             Err(ConfigError { faults })
         }
+    }
+
+    /// Reads the text of a `config.ini` over the default, as [`Config::with`] does.
+    ///
+    /// # Errors
+    /// Those of [`Config::with`].
+    pub fn parse(text: &str) -> Result<Config, ConfigError> {
+        Config::default().with(text, Path::new(""))
+    }
+
+    /// The text of a `config.ini` that says the same, materials and all.
+    pub fn to_ini(&self) -> String {
+        sections::show(self)
+    }
+
+    /// The pictures that materials name.
+    pub fn bitmaps(&self) -> impl Iterator<Item = &PathBuf> {
+        let with_bitmap = |material: &&Material| material.texture == Texture::Bitmap;
+        self.materials.values().filter(with_bitmap).map(|material| &material.bitmap)
     }
 }

@@ -15,6 +15,14 @@ impl Bounds {
     /// The box that holds nothing; the neutral element of [`Bounds::union`].
     pub const EMPTY: Bounds = Bounds { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
 
+    /// The box that holds everything: that of an endless solid.
+    pub const EVERYTHING: Bounds = Bounds { min: DVec3::NEG_INFINITY, max: DVec3::INFINITY };
+
+    /// Whether the box ends in all directions.
+    pub fn is_finite(&self) -> bool {
+        self.min.is_finite() && self.max.is_finite()
+    }
+
     /// The smallest box that holds all `points`.
     pub fn of(points: impl IntoIterator<Item = DVec3>) -> Bounds {
         points.into_iter().fold(Bounds::EMPTY, |bounds, point| Bounds {
@@ -33,8 +41,11 @@ impl Bounds {
         Bounds { min: self.min.max(other.min), max: self.max.min(other.max) }
     }
 
-    /// The smallest box round this one after `transform`.
+    /// The smallest box round this one after `transform`; an endless one becomes everything.
     pub fn transformed(self, transform: &DAffine3) -> Bounds {
+        if !self.is_finite() {
+            return Bounds::EVERYTHING;
+        }
         let corner = |index: usize| {
             let pick = |bit: usize, low: f64, high: f64| if index & bit == 0 { low } else { high };
             DVec3::new(

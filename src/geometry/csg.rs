@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
 
-use super::{Bounds, Hit, Interval, Placed, Ray, Solid, Span, Spans, nearest_end};
+use super::{Bounds, Hit, Interval, Placed, Ray, Shape, Solid, Span, Spans, nearest_end};
 
 /// A tree of solids; a line is combined span by span from the leaves up (Turek 2008, 3.7.6).
 #[derive(Clone)]
@@ -19,8 +19,15 @@ enum Node {
     Pair(Operation, Box<[Csg; 2]>),
 }
 
-#[derive(Clone, Copy)]
-enum Operation {
+/// What stands at the root of a tree.
+pub enum Root<'a> {
+    Leaf(&'a dyn Solid),
+    Pair(Operation, &'a Csg, &'a Csg),
+}
+
+/// How two solids are joined.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Operation {
     Union,
     Intersection,
     Difference,
@@ -65,12 +72,24 @@ impl Csg {
         Csg::leaf(Placed::new(Arc::new(self), transform))
     }
 
+    /// The tree's root: a solid by itself, or two trees and how they are joined.
+    pub fn root(&self) -> Root<'_> {
+        match &self.node {
+            Node::Leaf(solid) => Root::Leaf(&**solid),
+            Node::Pair(operation, pair) => Root::Pair(*operation, &pair[0], &pair[1]),
+        }
+    }
+
     fn joined(self, operation: Operation, other: Csg, bounds: Bounds) -> Csg {
         Csg { node: Node::Pair(operation, Box::new([self, other])), bounds }
     }
 }
 
 impl Solid for Csg {
+    fn shape(&self) -> Shape<'_> {
+        Shape::Csg(self)
+    }
+
     fn bounds(&self) -> Bounds {
         self.bounds
     }
@@ -120,8 +139,7 @@ impl Solid for Csg {
 /// difference cuts belongs to the second solid, turned inside out.
 fn combine(operation: Operation, first: &Spans, second: &Spans, spans: &mut Spans) {
     let inside_out = matches!(operation, Operation::Difference);
-    let turned =
-        |end: Hit| Hit { normal: if inside_out { -end.normal } else { end.normal }, ..end };
+    let turned = |end: Hit| if inside_out { end.turned() } else { end };
     let ends = |list: &Spans, index: usize| {
         list.get(index / 2).map(|span| [span.enter, span.exit][index % 2])
     };

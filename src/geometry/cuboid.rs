@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{Bounds, Hit, Ray, Solid, Span, Spans};
+use super::{Bounds, Hit, Ray, Shape, Solid, Span, Spans};
 
 /// A rectangular box from `min` to `max` (turn it by placing it: [`super::Placed`]).
 #[derive(Clone, Copy, Debug)]
@@ -19,6 +19,10 @@ impl Cuboid {
 }
 
 impl Solid for Cuboid {
+    fn shape(&self) -> Shape<'_> {
+        Shape::Cuboid(self)
+    }
+
     fn bounds(&self) -> Bounds {
         Bounds { min: self.min, max: self.max }
     }
@@ -28,8 +32,8 @@ impl Solid for Cuboid {
     }
 
     fn spans(&self, ray: &Ray, spans: &mut Spans) {
-        let mut enter = Hit { t: f64::NEG_INFINITY, normal: DVec3::ZERO };
-        let mut exit = Hit { t: f64::INFINITY, normal: DVec3::ZERO };
+        let mut enter = Hit::new(f64::NEG_INFINITY, DVec3::ZERO);
+        let mut exit = Hit::new(f64::INFINITY, DVec3::ZERO);
         for axis in 0..3 {
             let (origin, direction) = (ray.origin[axis], ray.direction[axis]);
             if direction == 0.0 {
@@ -39,8 +43,8 @@ impl Solid for Cuboid {
                 continue;
             }
             let outward = DVec3::AXES[axis];
-            let low = Hit { t: (self.min[axis] - origin) / direction, normal: -outward };
-            let high = Hit { t: (self.max[axis] - origin) / direction, normal: outward };
+            let low = Hit::new((self.min[axis] - origin) / direction, -outward);
+            let high = Hit::new((self.max[axis] - origin) / direction, outward);
             let (near, far) = if direction > 0.0 { (low, high) } else { (high, low) };
             if near.t > enter.t {
                 enter = near;

@@ -8,23 +8,14 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{Bounds, Hit, Interval, Profile, Ray, Solid, Span, Spans};
+use super::polygon::{Normals, Segment};
+use super::{Bounds, CurveError, Hit, Interval, Profile, Ray, Shape, Solid, Span, Spans};
 
 /// A profile turned about the y axis; its heights are y.
 pub struct Lathe {
     segments: Vec<Segment>,
     tree: Vec<Node>,
     bounds: Bounds,
-}
-
-/// A straight piece of the profile, in the order from the bottom to the top of the axis.
-struct Segment {
-    from: DVec2,
-    to: DVec2,
-    /// Outward normal (nu, nv) of length 1.
-    normal: DVec2,
-    /// Distance of the segment's line from the origin of (u, v), with the normal's sign.
-    w: f64,
 }
 
 /// A run of segments with bounds in (u², v). Children follow their parent: the left one at once,
@@ -43,26 +34,28 @@ const MARGIN: f64 = 1e-9;
 
 impl Lathe {
     /// Turns `profile` after `subdivisions` steps.
-    pub fn new(profile: &Profile, subdivisions: u32) -> Lathe {
-        let polygon = profile.subdivided(subdivisions);
-        let segments: Vec<Segment> = polygon
-            .windows(2)
-            .map(|ends| {
-                let along = (ends[1] - ends[0]).normalize();
-                let normal = DVec2::new(along.y, -along.x);
-                Segment { from: ends[0], to: ends[1], normal, w: normal.dot(ends[0]) }
-            })
-            // A stretch of the axis itself bounds nothing.
-            .filter(|segment| segment.from.x > 0.0 || segment.to.x > 0.0)
-            .collect();
+    ///
+    /// # Errors
+    /// When the subdivided profile bounds nothing, or meets itself.
+    pub fn new(
+        profile: &Profile,
+        subdivisions: u32,
+        normals: Normals,
+    ) -> Result<Lathe, CurveError> {
+        let segments = profile.segments(subdivisions, normals)?;
         let mut tree = Vec::with_capacity(2 * segments.len());
         build(&segments, 0, segments.len(), &mut tree);
-        let radius = polygon.iter().fold(0.0, |radius: f64, p| radius.max(p.x));
-        let bounds =
-            Bounds::of(polygon.iter().flat_map(|p| {
-                [DVec3::new(radius, p.y, radius), DVec3::new(-radius, p.y, -radius)]
-            }));
-        Lathe { segments, tree, bounds }
+        let points = || segments.iter().flat_map(|segment| [segment.from, segment.to]);
+        let radius = points().fold(0.0, |radius: f64, point| radius.max(point.x));
+        let bounds = Bounds::of(points().flat_map(|point| {
+            [DVec3::new(radius, point.y, radius), DVec3::new(-radius, point.y, -radius)]
+        }));
+        Ok(Lathe { segments, tree, bounds })
+    }
+
+    /// The subdivided profile in (u, v), without what lies on the axis.
+    pub fn segments(&self) -> &[Segment] {
+        &self.segments
     }
 
     /// Calls `found(t, segment)` for each hit of the line of `ray` within `range`, in no
@@ -186,7 +179,8 @@ impl AxisLine {
     /// The distances at which the ray crosses the turned segment; a segment owns its first end.
     fn meet(&self, segment: &Segment) -> smallvec::SmallVec<[f64; 2]> {
         let (nu, nv) = (segment.normal.x, segment.normal.y);
-        let h = segment.w - nv * self.oy;
+        // The segment's line is nu·u + nv·v = w.
+        let h = segment.normal.dot(segment.from) - nv * self.oy;
         let g = -nv * self.dy;
         let owns = |t: f64| {
             let (du, dv) = (segment.to.x - segment.from.x, segment.to.y - segment.from.y);
@@ -223,15 +217,27 @@ impl AxisLine {
     }
 }
 
-impl Segment {
-    fn normal_at(&self, point: DVec3) -> DVec3 {
-        let u = (point.x * point.x + point.z * point.z).sqrt();
-        let radial = if u > 0.0 { self.normal.x / u } else { 0.0 };
-        DVec3::new(radial * point.x, self.normal.y, radial * point.z)
+/// Where a ray at distance `t` meets the turned `segment`.
+fn hit(ray: &Ray, t: f64, segment: &Segment) -> Hit {
+    let point = ray.at(t);
+    let u = (point.x * point.x + point.z * point.z).sqrt();
+    let turned = |normal: DVec2| {
+        let radial = if u > 0.0 { normal.x / u } else { 0.0 };
+        DVec3::new(radial * point.x, normal.y, radial * point.z)
+    };
+    let flat = Hit::new(t, turned(segment.normal));
+    if segment.smooth == [segment.normal; 2] {
+        return flat;
     }
+    let share = segment.share(DVec2::new(u, point.y));
+    Hit { shading: turned(segment.smooth_normal(share)), ..flat }
 }
 
 impl Solid for Lathe {
+    fn shape(&self) -> Shape<'_> {
+        Shape::Lathe(self)
+    }
+
     fn bounds(&self) -> Bounds {
         self.bounds
     }
@@ -250,7 +256,7 @@ impl Solid for Lathe {
     fn spans(&self, ray: &Ray, spans: &mut Spans) {
         let mut ends: smallvec::SmallVec<[Hit; 8]> = smallvec::SmallVec::new();
         self.hits(ray, Interval::WHOLE_LINE, |t, segment| {
-            ends.push(Hit { t, normal: segment.normal_at(ray.at(t)) });
+            ends.push(hit(ray, t, segment));
             f64::INFINITY
         });
         ends.sort_by(|a, b| a.t.total_cmp(&b.t));
@@ -273,6 +279,6 @@ impl Solid for Lathe {
             }
             t
         });
-        nearest.map(|(t, segment)| Hit { t, normal: segment.normal_at(ray.at(t)) })
+        nearest.map(|(t, segment)| hit(ray, t, segment))
     }
 }

@@ -1,8 +1,9 @@
 //! Solids and how rays meet them; one file a shape.
 //!
-//! Everything here is closed: a ray meets a [`Solid`] in *spans*, the stretches of the ray that
+//! Everything here has an inside: a ray meets a [`Solid`] in *spans*, the stretches of the ray that
 //! lie inside it. Spans are what constructive solid geometry combines, and the first end of a
-//! span in front of the eye is what the eye sees. A new shape is a file with one `impl Solid`.
+//! span in front of the eye is what the eye sees. A new shape is a file with one `impl Solid`, and
+//! a line in [`Shape`].
 
 mod bounds;
 mod csg;
@@ -10,23 +11,43 @@ mod cuboid;
 mod curve;
 mod lathe;
 mod placed;
+mod plane;
+mod polygon;
+mod prism;
 mod ray;
 mod sphere;
 pub mod transform;
 
 pub use bounds::Bounds;
-pub use csg::Csg;
+pub use csg::{Csg, Operation, Root};
 pub use cuboid::Cuboid;
-pub use curve::{ControlPoint, Profile, ProfileError};
+pub use curve::{ControlPoint, CurveError, Outline, Profile};
 pub use lathe::Lathe;
 pub use placed::Placed;
+pub use plane::Plane;
+pub use polygon::{Normals, Segment};
+pub use prism::Prism;
 pub use ray::{Hit, Interval, Ray, Span, Spans};
 pub use sphere::Sphere;
 
 use glam::DVec3;
 
-/// A closed body.
+/// What a solid is, for those who write it down.
+pub enum Shape<'a> {
+    Plane(&'a Plane),
+    Sphere(&'a Sphere),
+    Cuboid(&'a Cuboid),
+    Lathe(&'a Lathe),
+    Prism(&'a Prism),
+    Csg(&'a Csg),
+    Placed(&'a Placed),
+}
+
+/// A body with an inside.
 pub trait Solid: Send + Sync {
+    /// The solid as its own kind.
+    fn shape(&self) -> Shape<'_>;
+
     /// The smallest box that is known to hold the whole solid.
     fn bounds(&self) -> Bounds;
 

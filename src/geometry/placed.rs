@@ -4,12 +4,13 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3};
 
-use super::{Bounds, Hit, Interval, Ray, Solid, Span, Spans};
+use super::{Bounds, Hit, Interval, Ray, Shape, Solid, Span, Spans};
 
 /// A solid in another place: `transform` leads from its own space to the space round it.
 #[derive(Clone)]
 pub struct Placed {
     solid: Arc<dyn Solid>,
+    transform: DAffine3,
     to_own: DAffine3,
     normals: DMat3,
     bounds: Bounds,
@@ -22,9 +23,20 @@ impl Placed {
         Placed {
             bounds: solid.bounds().transformed(&transform),
             normals: to_own.matrix3.transpose(),
+            transform,
             to_own,
             solid,
         }
+    }
+
+    /// The solid in its own space.
+    pub fn solid(&self) -> &dyn Solid {
+        &*self.solid
+    }
+
+    /// The way from the solid's own space to the space round it.
+    pub fn transform(&self) -> DAffine3 {
+        self.transform
     }
 
     /// A point of the space round the solid, in the solid's own space.
@@ -40,11 +52,18 @@ impl Placed {
     }
 
     fn carried(&self, hit: Hit) -> Hit {
-        Hit { t: hit.t, normal: (self.normals * hit.normal).normalize() }
+        let carry = |normal: DVec3| (self.normals * normal).normalize();
+        let normal = carry(hit.normal);
+        let shading = if hit.shading == hit.normal { normal } else { carry(hit.shading) };
+        Hit { t: hit.t, normal, shading }
     }
 }
 
 impl Solid for Placed {
+    fn shape(&self) -> Shape<'_> {
+        Shape::Placed(self)
+    }
+
     fn bounds(&self) -> Bounds {
         self.bounds
     }

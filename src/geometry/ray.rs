@@ -52,6 +52,21 @@ pub struct Hit {
     pub t: f64,
     /// Outward normal of length 1.
     pub normal: DVec3,
+    /// The normal to shade with: that of the smooth surface which a polygon stands for, or
+    /// [`Hit::normal`] where there is none.
+    pub shading: DVec3,
+}
+
+impl Hit {
+    /// A hit of a surface that is what it looks like.
+    pub fn new(t: f64, normal: DVec3) -> Hit {
+        Hit { t, normal, shading: normal }
+    }
+
+    /// The same place, seen as a hole sees it: inside and outside exchanged.
+    pub fn turned(self) -> Hit {
+        Hit { t: self.t, normal: -self.normal, shading: -self.shading }
+    }
 }
 
 /// A stretch of a ray inside a solid.

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{Bounds, Hit, Ray, Solid, Span, Spans};
+use super::{Bounds, Hit, Ray, Shape, Solid, Span, Spans};
 
 /// All points within `radius` of `center`.
 #[derive(Clone, Copy, Debug)]
@@ -12,6 +12,10 @@ pub struct Sphere {
 }
 
 impl Solid for Sphere {
+    fn shape(&self) -> Shape<'_> {
+        Shape::Sphere(self)
+    }
+
     fn bounds(&self) -> Bounds {
         Bounds { min: self.center - self.radius, max: self.center + self.radius }
     }
@@ -30,7 +34,7 @@ impl Solid for Sphere {
             return;
         }
         let root = discriminant.sqrt();
-        let hit = |t: f64| Hit { t, normal: (ray.at(t) - self.center) / self.radius };
+        let hit = |t: f64| Hit::new(t, (ray.at(t) - self.center) / self.radius);
         spans.push(Span { enter: hit((-half_b - root) / a), exit: hit((-half_b + root) / a) });
     }
 }

@@ -1,25 +1,32 @@
-//! What to do: render games, one position, or say what a file holds.
+//! What to do: render games or one position, say what a file holds, write a scene down, measure.
 //!
 //! A job is given typed and checked settings, tells a [`Progress`] how far it is, and gives back
 //! a summary or its error. It writes where it is told to, and never prints.
 
+mod bench;
 mod diagram;
+mod export;
 mod inspect;
 mod render;
 mod report;
 mod studio;
+mod subject;
 
-pub use diagram::{DiagramJob, DiagramSummary, Subject, diagram};
+pub use bench::{BenchJob, Measurement, bench};
+pub use diagram::{DiagramJob, DiagramSummary, diagram};
+pub use export::{ExportJob, export};
 pub use inspect::{InspectJob, inspect};
 pub use render::{RenderJob, Summary, render};
 pub use studio::PictureSettings;
+pub use subject::Subject;
 
 use std::io;
 use std::path::{Path, PathBuf};
 
+use crate::assets::AssetError;
 use crate::game::{Game, Moment, Selection, SourceError, printable};
-use crate::geometry::ProfileError;
 use crate::output::OutputError;
+use crate::scene::MaterialError;
 
 /// Why a job could not be done.
 #[derive(Debug, thiserror::Error)]
@@ -38,14 +45,21 @@ pub enum JobError {
     OutputIsInput { path: PathBuf },
     #[error("{file}: game {game} would take {frames} frames, expected at most {MAX_FRAMES}")]
     TooLong { file: String, game: usize, frames: usize },
-    #[error("the piece set cannot be built")]
-    Set(#[from] ProfileError),
+    #[error(transparent)]
+    Assets(#[from] AssetError),
+    #[error(transparent)]
+    Material(#[from] MaterialError),
     #[error("{threads} threads cannot be started")]
     Threads {
         threads: usize,
         #[source]
         error: rayon::ThreadPoolBuildError,
     },
+    #[error(
+        "the scene has pictures (of the clock, or of materials), expected a file to write it to, \
+         so that they can stand beside it"
+    )]
+    BitmapsOnStdout,
     #[error("the output cannot be written")]
     Write(#[source] io::Error),
 }

@@ -6,14 +6,11 @@ use image::RgbImage;
 use serde::Serialize;
 
 use super::JobError;
-use crate::assets::thesis_set;
-use crate::config::Config;
+use crate::assets::{Assets, SetName};
+use crate::config::{Config, Render, Sampling};
 use crate::scene::Stage;
 use crate::timeline::Frame;
 use crate::tracer::{self, Antialiasing, RayCounts};
-
-/// Steps of subdivision for the curves of pieces, as in the thesis.
-const SUBDIVISIONS: u32 = 4;
 
 /// What all pictures of a job have in common.
 #[derive(Clone, Debug)]
@@ -21,7 +18,7 @@ pub struct PictureSettings {
     pub config: Config,
     /// Where `config` was read, if not built in.
     pub config_file: Option<PathBuf>,
-    pub antialiasing: Antialiasing,
+    pub set: SetName,
     /// The number of threads; as many as the machine has cores when `None`.
     pub threads: Option<usize>,
 }
@@ -31,9 +28,23 @@ pub struct PictureSettings {
 pub(super) struct SettingsRecord<'a> {
     version: &'static str,
     config_file: Option<&'a PathBuf>,
-    antialiasing_rays_per_side: u32,
     #[serde(flatten)]
     config: &'a Config,
+}
+
+/// Sets the stage for pictures with `settings`.
+pub(super) fn stage(settings: &PictureSettings) -> Result<Stage, JobError> {
+    let assets = Assets::load(&settings.config, settings.set)?;
+    Ok(Stage::new(&settings.config, &assets)?)
+}
+
+fn antialiasing(render: &Render) -> Antialiasing {
+    let rays = render.rays;
+    match render.sampling {
+        Sampling::None => Antialiasing::None,
+        Sampling::Grid => Antialiasing::Grid(rays),
+        Sampling::Adaptive => Antialiasing::Adaptive { rays, threshold: render.threshold as f32 },
+    }
 }
 
 /// Makes pictures of frames.
@@ -49,7 +60,7 @@ impl<'a> Studio<'a> {
         let threads = settings.threads.unwrap_or(0);
         Ok(Studio {
             settings,
-            stage: Stage::new(&settings.config, thesis_set(SUBDIVISIONS)?),
+            stage: stage(settings)?,
             threads: rayon::ThreadPoolBuilder::new()
                 .num_threads(threads)
                 .build()
@@ -61,10 +72,15 @@ impl<'a> Studio<'a> {
     pub fn picture(&mut self, frame: &Frame) -> RgbImage {
         let scene = self.stage.scene(frame);
         let Config { width, height, .. } = self.settings.config;
-        let mode = self.settings.antialiasing;
+        let mode = antialiasing(&self.settings.config.render);
         let (picture, rays) = self.threads.install(|| tracer::render(&scene, width, height, mode));
         self.rays = self.rays + rays;
         picture
+    }
+
+    /// How many threads trace.
+    pub fn threads(&self) -> usize {
+        self.threads.current_num_threads()
     }
 
     /// All rays so far.
@@ -76,7 +92,6 @@ impl<'a> Studio<'a> {
         SettingsRecord {
             version: env!("CARGO_PKG_VERSION"),
             config_file: self.settings.config_file.as_ref(),
-            antialiasing_rays_per_side: self.settings.antialiasing.rays_per_side(),
             config: &self.settings.config,
         }
     }

@@ -2,14 +2,17 @@
 //!
 //! A file is written whole or not at all: under a temporary name in the same folder, then renamed.
 
+mod bmp;
 mod frames;
+mod picture;
 mod png;
 mod record;
 mod slug;
 
 pub use frames::{frame_name, remove_frames};
+pub use picture::{PictureFormat, write_picture};
 pub use png::{encode_png, write_png};
-pub use record::{write_json, write_json_lines};
+pub use record::{write_json, write_json_lines, write_text};
 pub use slug::slug;
 
 use std::fs;
@@ -34,6 +37,17 @@ pub fn prepare_folder(folder: &Path) -> Result<(), OutputError> {
     fs::create_dir_all(folder).map_err(failed)?;
     tempfile::tempfile_in(folder).map_err(failed)?;
     Ok(())
+}
+
+/// Makes the folder that `file` is to be written to, as [`prepare_folder`] does.
+///
+/// # Errors
+/// When that cannot be done.
+pub fn prepare_file(file: &Path) -> Result<(), OutputError> {
+    match file.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        Some(folder) => prepare_folder(folder),
+        None => Ok(()),
+    }
 }
 
 /// Writes a file through `write`, whole or not at all; a file of that name is replaced. What is no

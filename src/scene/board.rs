@@ -1,11 +1,13 @@
-//! The chessboard: a chequered slab that reflects, on a wooden base.
+//! The chessboard: a chequered slab on a base, and the table that it may lie on.
 
 use std::sync::Arc;
 
 use glam::{DAffine3, DVec2, DVec3};
 
-use super::{Material, Object, Texture};
-use crate::geometry::{Cuboid, Placed};
+use super::material::{MaterialError, Materials};
+use super::{Object, Surface};
+use crate::config::Board;
+use crate::geometry::{Cuboid, Placed, Plane, Solid};
 
 /// Width of a square in world units.
 pub const SQUARE: f64 = 4.0;
@@ -23,39 +25,31 @@ const RIM: f64 = 1e-3;
 /// How far the base reaches beyond the squares, and how far it lies below them.
 const FRAME: f64 = 2.2;
 const STEP: f64 = 0.12;
-const DEPTH: f64 = 1.6;
 
-/// The slab of squares and the base beneath.
-pub fn board() -> [Object; 2] {
-    let slab = Material {
-        ambient: 0.2,
-        diffuse: 0.7,
-        specular: 0.2,
-        shininess: 80.0,
-        reflectivity: 0.25,
-        texture: Texture::Chequer {
-            origin: DVec2::splat(-SQUARE / 2.0),
-            side: SQUARE,
-            colors: [DVec3::new(0.42, 0.26, 0.15), DVec3::new(0.86, 0.74, 0.54)],
-        },
+/// How far the table lies below the squares.
+pub const DEPTH: f64 = 1.6;
+
+/// The slab of squares, the base beneath, and the table if there is one.
+pub fn board(board: &Board, materials: &Materials) -> Result<Vec<Object>, MaterialError> {
+    let squares = Surface::Chequer {
+        origin: DVec2::splat(-SQUARE / 2.0),
+        side: SQUARE,
+        materials: [materials.material(&board.dark)?, materials.material(&board.light)?],
     };
-    let base = Material {
-        ambient: 0.2,
-        diffuse: 0.7,
-        specular: 0.15,
-        shininess: 30.0,
-        reflectivity: 0.0,
-        texture: Texture::Wood {
-            colors: [DVec3::new(0.36, 0.2, 0.1), DVec3::new(0.27, 0.14, 0.07)],
-            size: 14.0,
-        },
-    };
-    [(block(HALF - RIM, -2.0 * STEP, 0.0), slab), (block(HALF + FRAME, -DEPTH, -STEP), base)].map(
-        |(cuboid, material)| Object {
-            body: Placed::new(Arc::new(cuboid), DAffine3::IDENTITY),
-            material,
-        },
-    )
+    let mut objects = vec![
+        standing(block(HALF - RIM, -2.0 * STEP, 0.0), squares),
+        standing(block(HALF + FRAME, -DEPTH, -STEP), materials.surface(&board.frame)?),
+    ];
+    if let Some(table) = &board.table {
+        let plane = Plane::new(DVec3::Y * -DEPTH, DVec3::Y);
+        objects.push(standing(plane, materials.surface(table)?));
+    }
+    Ok(objects)
+}
+
+/// A body where it was made.
+pub fn standing(solid: impl Solid + 'static, surface: Surface) -> Object {
+    Object { body: Placed::new(Arc::new(solid), DAffine3::IDENTITY), surface }
 }
 
 /// A flat square block round the board's middle.

@@ -52,6 +52,21 @@ impl Camera {
         }
     }
 
+    /// Where it stands.
+    pub fn position(&self) -> DVec3 {
+        self.position
+    }
+
+    /// Its directions to the right, upwards and forward, each of length 1.
+    pub fn axes(&self) -> [DVec3; 3] {
+        [self.right, self.up, self.forward]
+    }
+
+    /// The width that the whole picture shows at distance 1.
+    pub fn width(&self) -> f64 {
+        2.0 * self.half_width
+    }
+
     /// The ray of length 1 through the point (`x`, `y`) of a picture of `width` × `height` pixels;
     /// (0, 0) is the corner at the top left.
     pub fn ray(&self, x: f64, y: f64, width: u32, height: u32) -> Ray {

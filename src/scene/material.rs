@@ -1,37 +1,152 @@
 //! What surfaces do with light.
 
-use super::Texture;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+
+use super::texture::Noise;
+use super::{Mapping, Texture};
+use crate::assets::Bitmap;
+use crate::config::{self, Config, Finish};
 
 /// A colour: red, green and blue, 0 to 1 where it is shown.
-pub type Rgb = glam::DVec3;
+pub type Rgb = DVec3;
 
-/// The constants of Phong's model (Turek 2008, 2.3), and how much of a mirror the surface is.
+/// A finish, and the colour at each point in the body's own space.
 #[derive(Clone, Debug)]
 pub struct Material {
-    /// Share of the texture's colour that is seen without any light.
-    pub ambient: f64,
-    /// Share of the texture's colour that each light scatters.
-    pub diffuse: f64,
-    /// Strength of the highlight, in the light's own colour.
-    pub specular: f64,
-    /// Exponent of the highlight: the higher, the smaller and sharper.
-    pub shininess: f64,
-    /// Share of the mirror image that is added, 0 to 1.
-    pub reflectivity: f64,
-    /// The colour at each point, in the body's own space.
+    pub finish: Finish,
     pub texture: Texture,
 }
 
-impl Material {
-    /// A polished piece of one colour.
-    pub fn polished(color: Rgb) -> Material {
-        Material {
-            ambient: 0.2,
-            diffuse: 0.75,
-            specular: 0.4,
-            shininess: 60.0,
-            reflectivity: 0.0,
-            texture: Texture::Plain(color),
+/// What a body is made of.
+#[derive(Clone, Debug)]
+pub enum Surface {
+    /// One material all over.
+    Uniform(Material),
+    /// Squares of two materials in the plane of x and z of the body's own space.
+    Chequer {
+        /// (x, z) of a square's corner.
+        origin: DVec2,
+        /// The squares' width.
+        side: f64,
+        /// Where the sum of column and row is even, and where it is odd.
+        materials: [Material; 2],
+    },
+}
+
+impl Surface {
+    /// The material at `point`, in the body's own space.
+    pub fn material(&self, point: DVec3) -> &Material {
+        match self {
+            Surface::Uniform(material) => material,
+            Surface::Chequer { origin, side, materials } => {
+                let cell = ((DVec2::new(point.x, point.z) - origin) / side).floor();
+                &materials[usize::from((cell.x + cell.y).rem_euclid(2.0) >= 1.0)]
+            }
+        }
+    }
+
+    /// Its materials.
+    pub fn materials(&self) -> &[Material] {
+        match self {
+            Surface::Uniform(material) => std::slice::from_ref(material),
+            Surface::Chequer { materials, .. } => materials,
+        }
+    }
+
+    /// Whether anything is seen through it.
+    pub fn is_transparent(&self) -> bool {
+        self.materials().iter().any(|material| material.finish.transparency > 0.0)
+    }
+}
+
+/// A material that settings name but do not have, or a picture that was not read for it.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum MaterialError {
+    #[error("there is no material `{0}`")]
+    Unknown(String),
+    #[error("the picture {} was not read", .0.display())]
+    NoBitmap(PathBuf),
+}
+
+/// The shelf that surfaces are taken from by name.
+pub(super) struct Materials<'a> {
+    pub config: &'a Config,
+    pub bitmaps: &'a BTreeMap<PathBuf, Arc<Bitmap>>,
+}
+
+impl Materials<'_> {
+    /// The surface that settings call `name`.
+    pub fn surface(&self, name: &str) -> Result<Surface, MaterialError> {
+        let settings = self.settings(name)?;
+        let finish = settings.finish;
+        if settings.texture == config::Texture::Chequer {
+            let plain = |color| Material { finish, texture: Texture::Plain(color) };
+            return Ok(Surface::Chequer {
+                origin: DVec2::new(settings.origin.x, settings.origin.z),
+                side: settings.size,
+                materials: [settings.color, settings.second_color].map(plain),
+            });
+        }
+        Ok(Surface::Uniform(self.material(name)?))
+    }
+
+    /// The material that settings call `name`; of a chequer the one of its even squares.
+    pub fn material(&self, name: &str) -> Result<Material, MaterialError> {
+        let settings = self.settings(name)?;
+        let noise = Noise { size: settings.size, octaves: settings.octaves };
+        let colors = [settings.color, settings.second_color];
+        let texture = match settings.texture {
+            config::Texture::Plain | config::Texture::Chequer => Texture::Plain(settings.color),
+            config::Texture::Wood => Texture::Wood { colors, noise, grain: settings.grain },
+            config::Texture::Marble => Texture::Marble { colors, noise },
+            config::Texture::Bitmap => Texture::Bitmap {
+                bitmap: self
+                    .bitmaps
+                    .get(&settings.bitmap)
+                    .cloned()
+                    .ok_or_else(|| MaterialError::NoBitmap(settings.bitmap.clone()))?,
+                mapping: Mapping {
+                    kind: settings.mapping,
+                    origin: settings.origin,
+                    u: settings.u,
+                    v: settings.v,
+                },
+                filter: self.config.render.filter,
+            },
+        };
+        let texture = if self.config.render.plain { texture.plain() } else { texture };
+        Ok(Material { finish: settings.finish, texture })
+    }
+
+    fn settings(&self, name: &str) -> Result<&config::Material, MaterialError> {
+        let found = self.config.materials.get(name);
+        found.ok_or_else(|| MaterialError::Unknown(name.to_owned()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_chequer_has_a_dark_a1_and_a_light_h1() {
+        let settings = Config::default();
+        let materials = Materials { config: &settings, bitmaps: &BTreeMap::new() };
+        let [dark, light] = ["dark", "light"].map(|name| materials.material(name).unwrap());
+        let board = Surface::Chequer {
+            origin: DVec2::splat(-2.0),
+            side: 4.0,
+            materials: [dark.clone(), light.clone()],
+        };
+        let color = |material: &Material| material.texture.color(DVec3::ZERO, 0.0);
+        for (file, rank, expected) in [(0, 0, &dark), (7, 0, &light), (0, 7, &light), (7, 7, &dark)]
+        {
+            let point = DVec3::new(f64::from(4 * file), 0.0, f64::from(4 * rank));
+            assert_eq!(color(board.material(point)), color(expected));
         }
     }
 }

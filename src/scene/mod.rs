@@ -1,20 +1,24 @@
 //! What a picture shows, ready to be traced: bodies with materials, lights and a camera.
 //!
-//! A [`Stage`] holds what stays from frame to frame (set, board, lights); with a
+//! A [`Stage`] holds what stays from frame to frame (set, board, clock, lights); with a
 //! [`crate::timeline::Frame`] it makes a [`Scene`]. Here squares and pieces end: the tracer knows
 //! bodies alone.
 
 mod board;
 mod camera;
+mod clock;
+mod mapping;
 mod material;
+mod models;
 mod noise;
 mod stage;
 mod texture;
 
 pub use camera::Camera;
-pub use material::{Material, Rgb};
+pub use mapping::Mapping;
+pub use material::{Material, MaterialError, Rgb, Surface};
 pub use stage::Stage;
-pub use texture::Texture;
+pub use texture::{Noise, Texture};
 
 use crate::config::Light;
 use crate::geometry::Placed;
@@ -23,7 +27,7 @@ use crate::geometry::Placed;
 #[derive(Clone)]
 pub struct Object {
     pub body: Placed,
-    pub material: Material,
+    pub surface: Surface,
 }
 
 /// Everything that a picture depends on, but its size and sampling.
@@ -34,6 +38,10 @@ pub struct Scene {
     pub camera: Camera,
     /// The colour of a ray that meets nothing.
     pub background: Rgb,
-    /// How often a ray may be reflected; beyond it is black.
+    /// How often a ray may be reflected or refracted; beyond it is black.
     pub max_depth: u32,
+    /// How far a ray sees; beyond it is the background.
+    pub max_distance: f64,
+    /// Refractive index of all that is transparent.
+    pub snell_index: f64,
 }

@@ -17,6 +17,17 @@ pub fn perlin(point: DVec3) -> f64 {
     mix(along_y(0.0), along_y(1.0), fade.z)
 }
 
+/// The sum of `octaves` of noise, each twice as fine and half as strong as the one before.
+pub fn fractal(point: DVec3, octaves: u32) -> f64 {
+    let mut sum = 0.0;
+    let mut scale = 1.0;
+    for _ in 0..octaves {
+        sum += perlin(point * scale) / scale;
+        scale *= 2.0;
+    }
+    sum
+}
+
 /// One of the twelve directions to the middles of a cube's edges, by a hash of the lattice point.
 fn gradient(point: I64Vec3) -> DVec3 {
     let mut hash = (point.x as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15)

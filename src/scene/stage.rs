@@ -5,39 +5,63 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::board::{MIDDLE, SQUARE, board};
-use super::{Camera, Material, Object, Rgb, Scene};
-use crate::assets::PieceSet;
+use super::clock::clock;
+use super::material::{MaterialError, Materials};
+use super::models::model;
+use super::{Camera, Object, Rgb, Scene, Surface};
+use crate::assets::Assets;
 use crate::config::{Config, Light};
 use crate::geometry::transform::translation;
 use crate::geometry::{Csg, Placed};
 use crate::notation::{Color, Piece, Role};
 use crate::timeline::{Frame, Spot};
 
-/// Deeper mirrors than anyone sees.
-const MAX_DEPTH: u32 = 5;
-
-const WHITE_WOOD: Rgb = DVec3::new(0.91, 0.81, 0.63);
-const BLACK_WOOD: Rgb = DVec3::new(0.24, 0.18, 0.15);
-
-/// What stays the same from frame to frame: the set, the board, lights, camera and background.
+/// What stays the same from frame to frame: the set, all that is no piece, lights, camera and
+/// background.
 pub struct Stage {
     pieces: [Arc<Csg>; 6],
-    board: [Object; 2],
+    /// Of White's pieces, and of Black's.
+    surfaces: [Surface; 2],
+    /// The board, the clock and the extra models.
+    fixed: Vec<Object>,
     lights: Vec<Light>,
     camera: Camera,
     background: Rgb,
+    max_depth: u32,
+    max_distance: f64,
+    snell_index: f64,
 }
 
 impl Stage {
-    /// Sets the stage as `config` says, with the pieces of `set`.
-    pub fn new(config: &Config, set: PieceSet) -> Stage {
-        Stage {
+    /// Sets the stage as `config` says, with `assets` that were loaded for it.
+    ///
+    /// # Errors
+    /// When `config` names a material that it does not have, or `assets` lack a picture. Neither
+    /// happens with settings that were read from a file.
+    pub fn new(config: &Config, assets: &Assets) -> Result<Stage, MaterialError> {
+        let materials = Materials { config, bitmaps: &assets.bitmaps };
+        let mut fixed = board(&config.board, &materials)?;
+        if config.clock.show {
+            fixed.extend(clock(&config.clock, &materials)?);
+        }
+        for settings in &config.models {
+            fixed.push(model(settings, &materials)?);
+        }
+        let set = assets.set.clone();
+        Ok(Stage {
             pieces: [set.pawn, set.knight, set.bishop, set.rook, set.queen, set.king].map(Arc::new),
-            board: board(),
+            surfaces: [
+                materials.surface(&config.pieces.white)?,
+                materials.surface(&config.pieces.black)?,
+            ],
+            fixed,
             lights: config.lights.clone(),
             camera: Camera::new(&config.camera),
             background: config.background,
-        }
+            max_depth: config.render.max_depth,
+            max_distance: config.render.max_distance,
+            snell_index: config.snell_index,
+        })
     }
 
     /// What `frame` shows.
@@ -46,11 +70,13 @@ impl Stage {
             frame.placement.iter().map(|(square, piece)| self.object(piece, Spot::on(square)));
         let moving = frame.movers.iter().map(|mover| self.object(mover.piece, mover.spot));
         Scene {
-            objects: self.board.iter().cloned().chain(standing).chain(moving).collect(),
+            objects: self.fixed.iter().cloned().chain(standing).chain(moving).collect(),
             lights: self.lights.clone(),
             camera: self.camera.orbited(MIDDLE, frame.orbit),
             background: self.background,
-            max_depth: MAX_DEPTH,
+            max_depth: self.max_depth,
+            max_distance: self.max_distance,
+            snell_index: self.snell_index,
         }
     }
 
@@ -66,10 +92,11 @@ impl Stage {
         let place = DVec3::new(spot.file, spot.height, spot.rank) * SQUARE;
         Object {
             body: Placed::new(self.pieces[solid].clone(), translation(place)),
-            material: Material::polished(match piece.color {
-                Color::White => WHITE_WOOD,
-                Color::Black => BLACK_WOOD,
-            }),
+            surface: self.surfaces[match piece.color {
+                Color::White => 0,
+                Color::Black => 1,
+            }]
+            .clone(),
         }
     }
 }

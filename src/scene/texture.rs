@@ -1,68 +1,145 @@
 //! Colours over a surface; one entry a kind.
 
-use glam::{DVec2, DVec3};
+use std::f64::consts::PI;
+use std::sync::Arc;
 
-use super::Rgb;
-use super::noise::perlin;
+use glam::{DVec3, Vec3Swizzles};
+
+use super::noise::fractal;
+use super::{Mapping, Rgb};
+use crate::assets::Bitmap;
+use crate::config::{Axis, Filter};
 
 /// The colour at each point of a body, in the body's own space.
 #[derive(Clone, Debug)]
 pub enum Texture {
     /// One colour everywhere.
     Plain(Rgb),
-    /// Squares in the plane of x and z, by planar mapping: `origin` is a corner, `side` the width.
-    Chequer {
-        origin: DVec2,
-        side: f64,
-        /// Colours where the sum of column and row is even, and where it is odd.
-        colors: [Rgb; 2],
-    },
-    /// Rings of wood, with the grain along z.
+    /// Rings of wood.
     Wood {
         /// The two colours that a ring runs between.
         colors: [Rgb; 2],
-        /// World units that one unit of noise is stretched over.
-        size: f64,
+        noise: Noise,
+        /// The direction that it grew in.
+        grain: Axis,
     },
+    /// Veins of marble.
+    Marble {
+        /// The ground, and the veins.
+        colors: [Rgb; 2],
+        noise: Noise,
+    },
+    /// A picture.
+    Bitmap { bitmap: Arc<Bitmap>, mapping: Mapping, filter: Filter },
+}
+
+/// A sum of octaves of gradient noise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Noise {
+    /// World units that one unit of the lowest octave is stretched over.
+    pub size: f64,
+    pub octaves: u32,
 }
 
 impl Texture {
-    /// The colour at `point`.
-    pub fn color(&self, point: DVec3) -> Rgb {
+    /// The colour at `point`, where a width of `seen` world units is seen at once.
+    pub fn color(&self, point: DVec3, seen: f64) -> Rgb {
         match self {
             Texture::Plain(color) => *color,
-            Texture::Chequer { origin, side, colors } => {
-                let cell = ((DVec2::new(point.x, point.z) - origin) / side).floor();
-                colors[usize::from((cell.x + cell.y).rem_euclid(2.0) >= 1.0)]
+            Texture::Wood { colors, noise, grain } => {
+                let along = match grain {
+                    Axis::X => point.yzx(),
+                    Axis::Y => point.zxy(),
+                    Axis::Z => point,
+                };
+                colors[0].lerp(colors[1], wood(along / noise.size, noise.octaves))
             }
-            Texture::Wood { colors, size } => colors[0].lerp(colors[1], wood(point / size)),
+            Texture::Marble { colors, noise } => {
+                colors[0].lerp(colors[1], marble(point / noise.size, noise.octaves))
+            }
+            Texture::Bitmap { bitmap, mapping, filter } => {
+                let (place, scale) = mapping.place(point);
+                let texels = (scale * bitmap.size()).max_element() * seen;
+                bitmap.color(place, *filter, texels)
+            }
+        }
+    }
+
+    /// Wood and marble as one colour, the mean over a large body; others as they are.
+    pub fn plain(self) -> Texture {
+        match self {
+            // A ring has all its shades in equal shares.
+            Texture::Wood { colors, .. } => Texture::Plain(colors[0].lerp(colors[1], 0.5)),
+            Texture::Marble { colors, .. } => {
+                Texture::Plain(colors[0].lerp(colors[1], MARBLE_MEAN))
+            }
+            other => other,
         }
     }
 }
 
 /// Where in its ring a point of a log lies, 0 to 1: twenty rings a unit of noise, which changes
-/// twenty times more slowly along the grain (Turek 2008, 3.8.2). The thesis casts to an integer
+/// twenty times more slowly along the grain, z (Turek 2008, 3.7.7). The thesis casts to an integer
 /// and so jumps where the noise is negative; the floor does not.
-fn wood(point: DVec3) -> f64 {
-    let bumps = perlin(DVec3::new(point.x, point.y, point.z * 0.05)) * 20.0;
+fn wood(point: DVec3, octaves: u32) -> f64 {
+    let bumps = fractal(DVec3::new(point.x, point.y, point.z * 0.05), octaves) * 20.0;
     bumps - bumps.floor()
 }
+
+/// How much of a vein a point lies in, 0 to 1: parallel sheets, bent by noise, and thin.
+fn marble(point: DVec3, octaves: u32) -> f64 {
+    let bent = point.dot(DVec3::new(0.6, 0.7, 0.4)) + 2.2 * fractal(point, octaves);
+    let wave = libm::sin(PI * bent).abs();
+    (1.0 - wave) * (1.0 - wave)
+}
+
+/// The mean of (1 − |sin|)².
+const MARBLE_MEAN: f64 = 1.5 - 4.0 / PI;
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    const BLACK_AND_WHITE: [Rgb; 2] = [DVec3::ZERO, DVec3::ONE];
+
+    /// Mean and steepest step of a texture along many lines.
+    fn walk(texture: &Texture) -> f64 {
+        let mut sum = 0.0;
+        for step in 0..200_000 {
+            let t = f64::from(step);
+            sum += texture.color(DVec3::new(0.37 * t, -0.71 * t, 0.13 * t), 0.0).x;
+        }
+        sum / 200_000.0
+    }
+
     #[test]
-    fn the_chequer_has_a_dark_a1_and_a_light_h1() {
-        let board = Texture::Chequer {
-            origin: DVec2::splat(-2.0),
-            side: 4.0,
-            colors: [DVec3::ZERO, DVec3::ONE],
-        };
-        let square = |file: f64, rank: f64| board.color(DVec3::new(4.0 * file, 0.0, 4.0 * rank));
-        assert_eq!(square(0.0, 0.0), DVec3::ZERO);
-        assert_eq!(square(7.0, 0.0), DVec3::ONE);
-        assert_eq!(square(0.0, 7.0), DVec3::ONE);
-        assert_eq!(square(7.0, 7.0), DVec3::ZERO);
+    fn the_plain_color_is_the_mean() {
+        let noise = Noise { size: 3.0, octaves: 4 };
+        let wood = Texture::Wood { colors: BLACK_AND_WHITE, noise, grain: Axis::X };
+        let marble = Texture::Marble { colors: BLACK_AND_WHITE, noise };
+        for texture in [wood, marble] {
+            let Texture::Plain(mean) = texture.clone().plain() else { panic!("not plain") };
+            let walked = walk(&texture);
+            assert!((walked - mean.x).abs() < 0.01, "{walked} is not {}", mean.x);
+        }
+    }
+
+    #[test]
+    fn wood_hardly_changes_along_its_grain() {
+        let noise = Noise { size: 9.0, octaves: 1 };
+        for (grain, along) in [(Axis::X, DVec3::X), (Axis::Y, DVec3::Y), (Axis::Z, DVec3::Z)] {
+            let wood = Texture::Wood { colors: BLACK_AND_WHITE, noise, grain };
+            let (mut lengthways, mut across) = (0.0, 0.0);
+            for step in 0..2000 {
+                let point = DVec3::new(0.37, -0.71, 0.13) * f64::from(step);
+                let change = |by: DVec3| {
+                    let change = (wood.color(point + by, 0.0) - wood.color(point, 0.0)).x.abs();
+                    change.min(1.0 - change)
+                };
+                lengthways += change(along * 0.05);
+                across += change(along.any_orthonormal_vector() * 0.05);
+            }
+            assert!(10.0 * lengthways < across, "{grain:?}: {lengthways} along, {across} across");
+        }
     }
 }

@@ -2,13 +2,15 @@
 
 use smallvec::{SmallVec, smallvec};
 
-use crate::geometry::{Bounds, Hit, Interval, Ray, Solid};
+use crate::geometry::{Bounds, Hit, Interval, Ray, Solid, Spans};
 use crate::scene::Object;
 
 /// A bounding volume hierarchy, halved at the median along the longest side.
 pub struct Hierarchy<'a> {
     objects: &'a [Object],
     nodes: Vec<Node>,
+    /// What has no end is in no box.
+    endless: Vec<usize>,
 }
 
 /// Children follow their parent: the first one at once, the second at `second`.
@@ -25,42 +27,57 @@ enum Content {
 impl<'a> Hierarchy<'a> {
     /// Builds the tree for `objects`.
     pub fn new(objects: &'a [Object]) -> Hierarchy<'a> {
-        let mut order: Vec<usize> = (0..objects.len()).collect();
+        let (mut order, endless): (Vec<usize>, Vec<usize>) =
+            (0..objects.len()).partition(|index| objects[*index].body.bounds().is_finite());
         let mut nodes = Vec::with_capacity(2 * objects.len());
         if !order.is_empty() {
             build(objects, &mut order, &mut nodes);
         }
-        Hierarchy { objects, nodes }
+        Hierarchy { objects, nodes, endless }
     }
 
-    /// The nearest object in front of `ray`, and where the ray meets it.
-    pub fn nearest(&self, ray: &Ray) -> Option<(&'a Object, Hit)> {
-        let mut range = Interval::AHEAD;
+    /// The nearest object in front of `ray` up to `distance`, and where the ray meets it.
+    pub fn nearest(&self, ray: &Ray, distance: f64) -> Option<(usize, Hit)> {
+        let mut range = Interval::up_to(distance);
         let mut found = None;
-        self.visit(ray, &mut range, |object, range| {
-            if let Some(hit) = object.body.nearest(ray, *range) {
+        self.visit(ray, &mut range, |index, range| {
+            if let Some(hit) = self.objects[index].body.nearest(ray, *range) {
                 range.max = hit.t;
-                found = Some((object, hit));
+                found = Some((index, hit));
             }
             false
         });
         found
     }
 
-    /// Whether anything stands in the way of `ray` before `distance`.
-    pub fn blocks(&self, ray: &Ray, distance: f64) -> bool {
+    /// How much of a light at `distance` comes along `ray`: what is opaque holds all of it back,
+    /// each surface of what is transparent lets its share through. (A line bends at none of them.)
+    pub fn transmission(&self, ray: &Ray, distance: f64) -> f64 {
         let mut range = Interval::up_to(distance);
-        self.visit(ray, &mut range, |object, range| object.body.blocks(ray, *range))
+        let mut share = 1.0;
+        self.visit(ray, &mut range, |index, range| {
+            let object = &self.objects[index];
+            if object.surface.is_transparent() {
+                share *= transmission(object, ray, *range);
+            } else if object.body.blocks(ray, *range) {
+                share = 0.0;
+            }
+            share == 0.0
+        });
+        share
     }
 
-    /// Shows `look` every object whose box meets `ray` within `range`, which `look` may shorten,
+    /// Shows `look` the index of every object whose box meets `ray` within `range`, which `look` may shorten,
     /// until it says true.
     fn visit(
         &self,
         ray: &Ray,
         range: &mut Interval,
-        mut look: impl FnMut(&'a Object, &mut Interval) -> bool,
-    ) -> bool {
+        mut look: impl FnMut(usize, &mut Interval) -> bool,
+    ) {
+        if self.endless.iter().any(|index| look(*index, range)) {
+            return;
+        }
         let mut pending: SmallVec<[usize; 16]> = smallvec![];
         if !self.nodes.is_empty() {
             pending.push(0);
@@ -73,14 +90,25 @@ impl<'a> Hierarchy<'a> {
             match node.content {
                 Content::Pair { second } => pending.extend([second, index + 1]),
                 Content::Object(object) => {
-                    if look(&self.objects[object], range) {
-                        return true;
+                    if look(object, range) {
+                        return;
                     }
                 }
             }
         }
-        false
     }
+}
+
+/// What the surfaces of a transparent object within `range` let through.
+fn transmission(object: &Object, ray: &Ray, range: Interval) -> f64 {
+    let mut spans = Spans::new();
+    object.body.spans(ray, &mut spans);
+    let ends = spans.iter().flat_map(|span| [span.enter.t, span.exit.t]);
+    let share = |t| {
+        let point = object.body.own_point(ray.at(t));
+        object.surface.material(point).finish.transparency
+    };
+    ends.filter(|t| range.holds(*t)).map(share).product()
 }
 
 fn build(objects: &[Object], order: &mut [usize], nodes: &mut Vec<Node>) {

@@ -2,9 +2,10 @@
 
 use glam::DVec3;
 
-use super::RayCounts;
+use super::footprint::Footprint;
 use super::hierarchy::Hierarchy;
-use crate::geometry::Ray;
+use super::{RayCounts, Sample};
+use crate::geometry::{Hit, Ray, Solid};
 use crate::scene::{Rgb, Scene};
 
 /// How far off a surface its secondary rays begin, along the normal, in world units: enough not
@@ -15,61 +16,180 @@ const OFFSET: f64 = 1e-4;
 pub struct Tracer<'a> {
     scene: &'a Scene,
     hierarchy: Hierarchy<'a>,
+    /// The transparent bodies that the camera stands in.
+    camera_within: u32,
+}
+
+/// A ray on its way.
+struct Flight {
+    ray: Ray,
+    /// How often it was reflected or refracted.
+    depth: u32,
+    /// How far it has come from the camera.
+    length: f64,
+    /// Its share of the pixel's colour.
+    weight: f64,
+    /// How many transparent bodies it is in.
+    within: u32,
+}
+
+/// What is found on the way.
+struct Walk<'a> {
+    counts: &'a mut RayCounts,
+    footprint: Footprint,
+    /// The width that a ray stands for at distance 1.
+    spread: f64,
 }
 
 impl<'a> Tracer<'a> {
     pub fn new(scene: &'a Scene) -> Tracer<'a> {
-        Tracer { scene, hierarchy: Hierarchy::new(&scene.objects) }
+        let holds_camera = |object: &&crate::scene::Object| {
+            object.surface.is_transparent() && object.body.contains(scene.camera.position())
+        };
+        Tracer {
+            scene,
+            hierarchy: Hierarchy::new(&scene.objects),
+            camera_within: scene.objects.iter().filter(holds_camera).count() as u32,
+        }
     }
 
-    /// The colour that comes back along a ray from the camera.
-    pub fn trace(&self, ray: &Ray, counts: &mut RayCounts) -> Rgb {
+    /// What comes back along a ray from the camera, which stands for a width of `spread` at
+    /// distance 1.
+    pub fn trace(&self, ray: Ray, spread: f64, counts: &mut RayCounts) -> Sample {
         counts.primary += 1;
-        self.radiance(ray, 0, counts)
+        let mut walk = Walk { counts, footprint: Footprint::default(), spread };
+        let within = self.camera_within;
+        let flight = Flight { ray, depth: 0, length: 0.0, weight: 1.0, within };
+        let color = self.radiance(&flight, &mut walk);
+        Sample { color, footprint: walk.footprint }
     }
 
-    fn radiance(&self, ray: &Ray, depth: u32, counts: &mut RayCounts) -> Rgb {
-        let Some((object, hit)) = self.hierarchy.nearest(ray) else {
+    fn radiance(&self, flight: &Flight, walk: &mut Walk) -> Rgb {
+        let ray = &flight.ray;
+        let Some((index, hit)) = self.hierarchy.nearest(ray, self.scene.max_distance) else {
+            walk.footprint.meet_nothing();
             return self.scene.background;
         };
-        let material = &object.material;
+        let object = &self.scene.objects[index];
         let point = ray.at(hit.t);
-        let normal = hit.normal;
-        let leaving = point + normal * OFFSET;
-        let mirrored = ray.direction - normal * (2.0 * ray.direction.dot(normal));
-        let color = material.texture.color(object.body.own_point(point));
+        let length = flight.length + hit.t;
+        let is_inside = ray.direction.dot(hit.normal) > 0.0;
+        let (outward, normal) = facing(hit, ray.direction);
+        let leaving = point + outward * OFFSET;
+        let mirrored = mirrored(ray.direction, normal, outward);
 
-        let mut sum = color * material.ambient;
+        let own_point = object.body.own_point(point);
+        let material = object.surface.material(own_point);
+        let finish = &material.finish;
+        let color = material.texture.color(own_point, length * walk.spread);
+
+        let (mut scattered, mut highlights) = (Rgb::splat(finish.ambient), Rgb::ZERO);
         for light in &self.scene.lights {
             let towards = light.position - leaving;
             let distance = towards.length();
             let towards = towards / distance;
-            let facing = normal.dot(towards);
-            if facing <= 0.0 || self.is_shadowed(leaving, towards, distance, counts) {
+            let incidence = normal.dot(towards);
+            if incidence <= 0.0 {
                 continue;
             }
-            sum += light.color * color * (material.diffuse * facing);
+            walk.counts.shadow += 1;
+            let way = Ray { origin: leaving, direction: towards };
+            let light = light.color * self.hierarchy.transmission(&way, distance);
+            if light == Rgb::ZERO {
+                continue;
+            }
+            scattered += light * (finish.diffuse * incidence);
             let highlight = mirrored.dot(towards);
             if highlight > 0.0 {
-                sum += light.color * (material.specular * libm::pow(highlight, material.shininess));
+                highlights += light * (finish.specular * libm::pow(highlight, finish.shininess));
             }
         }
-        if material.reflectivity > 0.0 && depth < self.scene.max_depth {
-            counts.reflected += 1;
-            let reflected = Ray { origin: leaving, direction: mirrored };
-            sum += self.radiance(&reflected, depth + 1, counts) * material.reflectivity;
+        walk.footprint.meet(flight.weight, index, normal, color, scattered + highlights);
+        let mut sum = color * scattered + highlights;
+        if flight.depth >= self.scene.max_depth {
+            return sum;
         }
-        sum.clamp(Rgb::ZERO, Rgb::ONE)
+        let on = |ray: Ray, share: f64, within: u32| Flight {
+            ray,
+            depth: flight.depth + 1,
+            length,
+            weight: flight.weight * share,
+            within,
+        };
+        let reflected = Ray { origin: leaving, direction: mirrored };
+        if finish.reflectivity > 0.0 {
+            walk.counts.reflected += 1;
+            let flight = on(reflected, finish.reflectivity, flight.within);
+            sum += self.radiance(&flight, walk) * finish.reflectivity;
+        }
+        if finish.transparency > 0.0 {
+            walk.counts.refracted += 1;
+            let behind =
+                if is_inside { flight.within.saturating_sub(1) } else { flight.within + 1 };
+            let index = |within: u32| if within > 0 { self.scene.snell_index } else { 1.0 };
+            let ratio = index(flight.within) / index(behind);
+            let flight = match refracted(ray.direction, normal, ratio) {
+                Some(direction) => {
+                    let ray = Ray { origin: point - outward * OFFSET, direction };
+                    on(ray, finish.transparency, behind)
+                }
+                None => on(reflected, finish.transparency, flight.within),
+            };
+            sum += self.radiance(&flight, walk) * finish.transparency;
+        }
+        sum
+    }
+}
+
+/// The normals of the surface itself and of what it is shaded as, on the side of a ray that comes
+/// along `direction`.
+fn facing(hit: Hit, direction: DVec3) -> (DVec3, DVec3) {
+    let hit = if direction.dot(hit.normal) > 0.0 { hit.turned() } else { hit };
+    // A smooth normal may face away where the polygon just does not.
+    let shading = if direction.dot(hit.shading) < 0.0 { hit.shading } else { hit.normal };
+    (hit.normal, shading)
+}
+
+/// Where a mirror across `normal` sends a ray (Turek 2008, 2.3.2), but never below the surface itself.
+fn mirrored(direction: DVec3, normal: DVec3, outward: DVec3) -> DVec3 {
+    let mirrored = direction - normal * (2.0 * direction.dot(normal));
+    if mirrored.dot(outward) > 0.0 {
+        mirrored
+    } else {
+        direction - outward * (2.0 * direction.dot(outward))
+    }
+}
+
+/// Snell's law: where a ray goes behind a surface with `normal` on its own side. `ratio` is the
+/// refractive index here over the one behind. `None` in total internal reflection.
+fn refracted(direction: DVec3, normal: DVec3, ratio: f64) -> Option<DVec3> {
+    let cos = -direction.dot(normal);
+    let cos2_behind = 1.0 - ratio * ratio * (1.0 - cos * cos);
+    (cos2_behind >= 0.0)
+        .then(|| (direction * ratio + normal * (ratio * cos - cos2_behind.sqrt())).normalize())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn light_bends_by_snells_law() {
+        for degrees in [0.0_f64, 10.0, 35.0, 60.0, 85.0] {
+            let (sin, cos) = libm::sincos(degrees.to_radians());
+            let direction = DVec3::new(sin, -cos, 0.0);
+            let behind = refracted(direction, DVec3::Y, 1.0 / 1.5).unwrap();
+            assert!((behind.x * 1.5 - sin).abs() < 1e-12, "{degrees}");
+            let back = refracted(behind, DVec3::Y, 1.5).unwrap();
+            assert!(back.distance(direction) < 1e-12, "{degrees}");
+        }
     }
 
-    fn is_shadowed(
-        &self,
-        origin: DVec3,
-        direction: DVec3,
-        distance: f64,
-        counts: &mut RayCounts,
-    ) -> bool {
-        counts.shadow += 1;
-        self.hierarchy.blocks(&Ray { origin, direction }, distance)
+    #[test]
+    fn beyond_the_critical_angle_nothing_gets_out() {
+        let critical = libm::asin(1.0 / 1.5);
+        let towards = |angle: f64| DVec3::new(libm::sin(angle), -libm::cos(angle), 0.0);
+        assert!(refracted(towards(critical - 1e-6), DVec3::Y, 1.5).is_some());
+        assert!(refracted(towards(critical + 1e-6), DVec3::Y, 1.5).is_none());
     }
 }

@@ -1,17 +1,22 @@
 //! The command line: from arguments to typed jobs.
 
+mod picture;
+mod thesis;
+mod values;
+
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, bail};
+use anyhow::bail;
 use clap::{Args, ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
-use lightsquare::config::{Config, MAX_SIDE};
 use lightsquare::game::{Moment, Selection};
-use lightsquare::job::{DiagramJob, InspectJob, PictureSettings, RenderJob, Subject};
+use lightsquare::job::{BenchJob, DiagramJob, ExportJob, InspectJob, RenderJob, Subject};
 use lightsquare::notation::Placement;
+use lightsquare::output::PictureFormat;
 use lightsquare::timeline::Film;
-use lightsquare::tracer::Antialiasing;
 
 use crate::progress::{ProgressMode, Verbosity};
+use picture::PictureArgs;
+use values::{FenArg, degrees, fen, fps, game_number, runs, seconds, threads};
 
 /// Reads chess games (PGN), replays them and ray-traces them into numbered pictures.
 #[derive(Parser)]
@@ -23,10 +28,30 @@ pub struct Cli {
     pub messages: MessageArgs,
 }
 
+/// What the arguments ask for.
+pub enum Request {
+    /// A command of today.
+    Command(Cli),
+    /// A line in the form of the thesis.
+    Thesis(Vec<String>),
+}
+
+/// The job that a line in the form of the thesis asks for.
+///
+/// # Errors
+/// An option that is none, a value that it cannot have, settings that cannot be read.
+pub fn thesis_job(arguments: &[String]) -> anyhow::Result<DiagramJob> {
+    thesis::job(arguments)
+}
+
 /// Reads the arguments; whoever asks for help, or gives a wrong one, is answered at once.
-pub fn parse() -> Cli {
+pub fn parse() -> Request {
+    let given: Vec<String> =
+        std::env::args_os().map(|argument| argument.to_string_lossy().into_owned()).collect();
+    if let Some(arguments) = given.get(1..).filter(|arguments| thesis::is_meant(arguments)) {
+        return Request::Thesis(arguments.to_vec());
+    }
     // Answers are coloured before the arguments are read, so this one is looked for alone.
-    let given: Vec<String> = std::env::args().collect();
     let asked = |when: &str| {
         given.iter().any(|argument| *argument == format!("--color={when}"))
             || given.windows(2).any(|pair| pair[0] == "--color" && pair[1] == when)
@@ -43,7 +68,7 @@ pub fn parse() -> Cli {
         ColorMode::Always => anstream::ColorChoice::Always.write_global(),
         ColorMode::Never => anstream::ColorChoice::Never.write_global(),
     }
-    cli
+    Request::Command(cli)
 }
 
 /// How much is said, and how.
@@ -82,6 +107,12 @@ pub enum Command {
     /// Say what files hold: a line a game, or every position
     #[command(after_help = INSPECT_EXAMPLES)]
     Inspect(InspectArgs),
+    /// Write the scene of one position for another renderer
+    #[command(after_help = EXPORT_EXAMPLES)]
+    Export(ExportArgs),
+    /// Measure the thesis's picture at the thesis's three settings
+    #[command(after_help = BENCH_EXAMPLES)]
+    Bench(BenchArgs),
 }
 
 const RENDER_EXAMPLES: &str = "\
@@ -105,10 +136,23 @@ Examples:
   lightsquare inspect games/*.pgn
   lightsquare inspect games/opera-1858.pgn --positions | cut -f 4";
 
+const EXPORT_EXAMPLES: &str = "\
+Examples:
+  lightsquare export --format pov games/opera-1858.pgn --at 17w -o scene.pov
+  povray +Iscene.pov +W1000 +H600 -A
+
+The thesis's picture of the same position: lightsquare diagram --aa none with the same options.
+--plain makes both the same to a hair; without it POV-Ray has wood and marble of its own.";
+
+const BENCH_EXAMPLES: &str = "\
+Examples:
+  lightsquare bench
+  lightsquare bench --cpu 1 --runs 7 --json";
+
 #[derive(Args)]
 pub struct RenderArgs {
     /// Files of games in PGN; - is the standard input
-    #[arg(required = true, value_name = "PGN")]
+    #[arg(required_unless_present = "print_config", value_name = "PGN")]
     inputs: Vec<PathBuf>,
     /// Folder for the pictures
     #[arg(short, long, value_name = "DIR", default_value = "out")]
@@ -149,8 +193,53 @@ pub struct RenderArgs {
 
 #[derive(Args)]
 pub struct DiagramArgs {
+    #[command(flatten)]
+    subject: SubjectArgs,
+    /// The picture's file, .png or .bmp; - is the standard output, as PNG
+    #[arg(short, long, value_name = "FILE", default_value = "out/diagram.png")]
+    output: PathBuf,
+    #[command(flatten)]
+    picture: PictureArgs,
+}
+
+#[derive(Args)]
+pub struct ExportArgs {
+    #[command(flatten)]
+    subject: SubjectArgs,
+    /// The renderer that is to read it
+    #[arg(long, value_name = "NAME", default_value = "pov")]
+    format: ExportFormat,
+    /// The scene's file; - is the standard output. Pictures on bodies stand beside it
+    #[arg(short, long, value_name = "FILE", default_value = "out/scene.pov")]
+    output: PathBuf,
+    #[command(flatten)]
+    picture: PictureArgs,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum ExportFormat {
+    /// POV-Ray 3.7.
+    Pov,
+}
+
+#[derive(Args)]
+pub struct BenchArgs {
+    /// Threads, from 1 to 1024 [default: one a core]
+    #[arg(long, value_name = "N", value_parser = threads)]
+    cpu: Option<usize>,
+    /// How often each setting is rendered, from 1 to 1000; the quickest counts
+    #[arg(long, value_name = "N", default_value = "3", value_parser = runs)]
+    runs: usize,
+    /// Write a JSON array instead of a table
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Where a single position comes from.
+#[derive(Args)]
+struct SubjectArgs {
     /// A file of games in PGN; - is the standard input
-    #[arg(value_name = "PGN", required_unless_present_any = ["fen", "white", "black"])]
+    #[arg(value_name = "PGN", required_unless_present_any = ["fen", "white", "black", "print_config"])]
     input: Option<PathBuf>,
     /// The game's number in its file
     #[arg(long, value_name = "GAME", default_value = "1", value_parser = game_number, conflicts_with_all = ["fen", "white", "black"])]
@@ -167,11 +256,6 @@ pub struct DiagramArgs {
     /// Black's pieces, likewise
     #[arg(long, value_name = "PIECES", conflicts_with = "input")]
     black: Option<String>,
-    /// The picture's file; - is the standard output
-    #[arg(short, long, value_name = "FILE", default_value = "out/diagram.png")]
-    output: PathBuf,
-    #[command(flatten)]
-    picture: PictureArgs,
 }
 
 #[derive(Args)]
@@ -185,34 +269,6 @@ pub struct InspectArgs {
     /// A tab-separated row for every position: game, ply, san, fen, white, black
     #[arg(long)]
     positions: bool,
-}
-
-/// What every picture has; the same words for every command.
-#[derive(Args)]
-struct PictureArgs {
-    /// Settings; ./config.ini is read where there is one
-    #[arg(short, long, value_name = "FILE", help_heading = "Picture")]
-    config: Option<PathBuf>,
-    /// Size in pixels, as in 1000x600
-    #[arg(long, value_name = "WxH", value_parser = size, allow_hyphen_values = true, help_heading = "Picture")]
-    size: Option<(u32, u32)>,
-    /// Antialiasing: none (0), or a grid of rays in each pixel (1)
-    #[arg(long, value_name = "MODE", default_value = "grid", help_heading = "Picture")]
-    aa: AntialiasingMode,
-    /// Rays along one side of a pixel's grid, from 1 to 32
-    #[arg(long, value_name = "N", default_value = "2", value_parser = rays, help_heading = "Picture")]
-    ssrays: u32,
-    /// Threads, from 1 to 1024 [default: one a core]
-    #[arg(long, value_name = "N", value_parser = threads, help_heading = "Picture")]
-    cpu: Option<usize>,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum AntialiasingMode {
-    #[value(alias = "0")]
-    None,
-    #[value(alias = "1")]
-    Grid,
 }
 
 impl MessageArgs {
@@ -245,20 +301,40 @@ impl RenderArgs {
             to: self.to,
             film: self.animate.then_some(film),
             orbit: self.orbit,
-            picture: self.picture.into_settings()?,
+            picture: self.picture.settings()?,
         })
     }
 }
 
 impl DiagramArgs {
     pub fn into_job(self) -> anyhow::Result<DiagramJob> {
-        if let Some(ending) = self.output.extension().filter(|e| !e.eq_ignore_ascii_case("png")) {
-            let ending = ending.to_string_lossy();
-            bail!(UsageError(format!(
-                "--output: pictures are PNG, found `.{ending}`, expected `.png`"
-            )));
+        let to_stdout = self.output == Path::new("-");
+        if !to_stdout && PictureFormat::of(&self.output).is_none() {
+            let name = self.output.display();
+            bail!(UsageError(format!("--output: expected a .png or .bmp file, found `{name}`")));
         }
-        let subject = match (self.input, self.fen) {
+        let picture = self.picture.settings()?;
+        Ok(DiagramJob { subject: self.subject.into_subject()?, output: self.output, picture })
+    }
+}
+
+impl ExportArgs {
+    pub fn into_job(self) -> anyhow::Result<ExportJob> {
+        let ExportFormat::Pov = self.format;
+        let picture = self.picture.settings()?;
+        Ok(ExportJob { subject: self.subject.into_subject()?, output: self.output, picture })
+    }
+}
+
+impl BenchArgs {
+    pub fn to_job(&self) -> BenchJob {
+        BenchJob { threads: self.cpu, runs: self.runs }
+    }
+}
+
+impl SubjectArgs {
+    fn into_subject(self) -> anyhow::Result<Subject> {
+        Ok(match (self.input, self.fen) {
             (Some(file), _) => Subject::Game { file, number: self.select, at: self.at },
             (None, Some(FenArg(placement, fen))) => Subject::Placement { placement, fen },
             (None, None) => {
@@ -268,8 +344,19 @@ impl DiagramArgs {
                     .map_err(|error| UsageError(format!("--white or --black: {error}")))?;
                 Subject::Placement { fen: placement.board_fen(), placement }
             }
-        };
-        Ok(DiagramJob { subject, output: self.output, picture: self.picture.into_settings()? })
+        })
+    }
+}
+
+impl Command {
+    /// The picture options of a command that has them.
+    pub fn picture(&self) -> Option<&PictureArgs> {
+        match self {
+            Command::Render(RenderArgs { picture, .. })
+            | Command::Diagram(DiagramArgs { picture, .. })
+            | Command::Export(ExportArgs { picture, .. }) => Some(picture),
+            Command::Inspect(_) | Command::Bench(_) => None,
+        }
     }
 }
 
@@ -279,95 +366,7 @@ impl InspectArgs {
     }
 }
 
-impl PictureArgs {
-    fn into_settings(self) -> anyhow::Result<PictureSettings> {
-        let here = PathBuf::from("config.ini");
-        let config_file = self.config.or_else(|| here.is_file().then_some(here));
-        let mut config = config_file.as_deref().map(read_config).transpose()?.unwrap_or_default();
-        if let Some((width, height)) = self.size {
-            (config.width, config.height) = (width, height);
-        }
-        Ok(PictureSettings {
-            config,
-            config_file,
-            antialiasing: match self.aa {
-                AntialiasingMode::None => Antialiasing::None,
-                AntialiasingMode::Grid => Antialiasing::Grid(self.ssrays),
-            },
-            threads: self.cpu,
-        })
-    }
-}
-
 /// An argument that only proves wrong together with others, or on a second look.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
 pub struct UsageError(String);
-
-fn read_config(path: &Path) -> anyhow::Result<Config> {
-    if path.is_dir() {
-        bail!("{}: is a folder, expected a config.ini", path.display());
-    }
-    let bytes =
-        std::fs::read(path).with_context(|| format!("{}: cannot be read", path.display()))?;
-    Config::parse(&String::from_utf8_lossy(&bytes)).with_context(|| path.display().to_string())
-}
-
-fn size(text: &str) -> Result<(u32, u32), String> {
-    let side = |text: &str| text.parse().ok().filter(|side| (1..=MAX_SIDE).contains(side));
-    text.split_once(['x', 'X', '×'])
-        .and_then(|(width, height)| Some((side(width)?, side(height)?)))
-        .ok_or_else(|| {
-            format!("expected WIDTHxHEIGHT in pixels, each from 1 to {MAX_SIDE}, as in 1000x600")
-        })
-}
-
-fn number(text: &str, min: f64, max: f64) -> Result<f64, String> {
-    text.parse()
-        .ok()
-        .filter(|number| (min..=max).contains(number))
-        .ok_or_else(|| format!("expected a number from {min} to {max}"))
-}
-
-fn whole_number(text: &str, min: usize, max: usize) -> Result<usize, String> {
-    text.parse()
-        .ok()
-        .filter(|number| (min..=max).contains(number))
-        .ok_or_else(|| format!("expected a whole number from {min} to {max}"))
-}
-
-fn game_number(text: &str) -> Result<usize, String> {
-    whole_number(text, 1, 1_000_000_000)
-}
-
-fn rays(text: &str) -> Result<u32, String> {
-    whole_number(text, 1, 32).map(|rays| rays as u32)
-}
-
-fn threads(text: &str) -> Result<usize, String> {
-    whole_number(text, 1, 1024)
-}
-
-fn fps(text: &str) -> Result<f64, String> {
-    number(text, 1.0, 240.0)
-}
-
-fn seconds(text: &str) -> Result<f64, String> {
-    number(text, 0.0, 3600.0)
-}
-
-fn degrees(text: &str) -> Result<f64, String> {
-    number(text, -36_000.0, 36_000.0)
-}
-
-/// A placement with the FEN that it was read from.
-#[derive(Clone)]
-struct FenArg(Placement, String);
-
-fn fen(text: &str) -> Result<FenArg, String> {
-    Placement::from_fen(text).map(|placement| FenArg(placement, text.to_owned())).map_err(|error| {
-        format!(
-            "{error}, expected a FEN such as 8/8/8/3k4/8/8/4P3/4K3 w - - 0 1, or its board part"
-        )
-    })
-}

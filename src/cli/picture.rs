@@ -1,0 +1,112 @@
+//! The options that every picture has, and the settings that come of them.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, bail};
+use clap::{Args, ValueEnum};
+use lightsquare::assets::SetName;
+use lightsquare::config::{Config, Look, Sampling};
+use lightsquare::job::PictureSettings;
+
+use super::values::{rays, size, threads};
+
+/// What every picture has; the same words for every command.
+#[derive(Args)]
+#[command(next_help_heading = "Picture")]
+pub struct PictureArgs {
+    /// Settings; ./config.ini is read where there is one
+    #[arg(short, long, value_name = "FILE")]
+    config: Option<PathBuf>,
+    /// Size in pixels, as in 1000x600
+    #[arg(long, value_name = "WxH", value_parser = size, allow_hyphen_values = true)]
+    size: Option<(u32, u32)>,
+    /// Antialiasing: none (0), a grid of rays in each pixel (1), or in those pixels that differ
+    /// from their neighbours (2) [default: grid]
+    #[arg(long, value_name = "MODE")]
+    aa: Option<AntialiasingMode>,
+    /// Rays along one side of a pixel's grid, from 1 to 32 [default: 2]
+    #[arg(long, value_name = "N", value_parser = rays)]
+    ssrays: Option<u32>,
+    /// Threads, from 1 to 1024 [default: one a core]
+    #[arg(long, value_name = "N", value_parser = threads)]
+    cpu: Option<usize>,
+    /// The chessmen
+    #[arg(long, value_name = "NAME", default_value = "thesis")]
+    set: SetArg,
+    /// What pictures look like before any setting: camera, lights, materials
+    #[arg(long, value_name = "NAME", default_value = "thesis")]
+    look: LookArg,
+    /// Wood and marble as plain colours
+    #[arg(long)]
+    plain: bool,
+    /// Print the settings that are in force as a config.ini, and do nothing else
+    #[arg(long)]
+    pub print_config: bool,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum AntialiasingMode {
+    #[value(alias = "0")]
+    None,
+    #[value(alias = "1")]
+    Grid,
+    #[value(alias = "2")]
+    Adaptive,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum SetArg {
+    Thesis,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum LookArg {
+    Thesis,
+}
+
+impl PictureArgs {
+    /// The settings: flags over the file, the file over the look.
+    pub fn settings(&self) -> anyhow::Result<PictureSettings> {
+        let look = match self.look {
+            LookArg::Thesis => Look::Thesis,
+        };
+        let config_file = config_file(self.config.as_deref());
+        let mut config = read_config(Config::new(look), config_file.as_deref())?;
+        if let Some((width, height)) = self.size {
+            (config.width, config.height) = (width, height);
+        }
+        if let Some(mode) = self.aa {
+            config.render.sampling = match mode {
+                AntialiasingMode::None => Sampling::None,
+                AntialiasingMode::Grid => Sampling::Grid,
+                AntialiasingMode::Adaptive => Sampling::Adaptive,
+            };
+        }
+        config.render.rays = self.ssrays.unwrap_or(config.render.rays);
+        config.render.plain |= self.plain;
+        let set = match self.set {
+            SetArg::Thesis => SetName::Thesis,
+        };
+        Ok(PictureSettings { config, config_file, set, threads: self.cpu })
+    }
+}
+
+/// The file of settings: the one that is named, or `./config.ini` where there is one.
+pub fn config_file(named: Option<&Path>) -> Option<PathBuf> {
+    let here = Path::new("config.ini");
+    named.or_else(|| here.is_file().then_some(here)).map(Path::to_owned)
+}
+
+/// Reads a file of settings over those of `base`, if there is one.
+pub fn read_config(base: Config, file: Option<&Path>) -> anyhow::Result<Config> {
+    let Some(path) = file else {
+        return Ok(base);
+    };
+    if path.is_dir() {
+        bail!("{}: is a folder, expected a config.ini", path.display());
+    }
+    let bytes =
+        std::fs::read(path).with_context(|| format!("{}: cannot be read", path.display()))?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    base.with(&String::from_utf8_lossy(&bytes), folder).with_context(|| path.display().to_string())
+}

@@ -1,0 +1,67 @@
+//! Values of flags that are checked as they are read.
+
+use lightsquare::config::MAX_SIDE;
+use lightsquare::notation::Placement;
+
+/// A placement with the FEN that it was read from.
+#[derive(Clone)]
+pub struct FenArg(pub Placement, pub String);
+
+pub fn fen(text: &str) -> Result<FenArg, String> {
+    Placement::from_fen(text).map(|placement| FenArg(placement, text.to_owned())).map_err(|error| {
+        format!(
+            "{error}, expected a FEN such as 8/8/8/3k4/8/8/4P3/4K3 w - - 0 1, or its board part"
+        )
+    })
+}
+
+pub fn size(text: &str) -> Result<(u32, u32), String> {
+    let side = |text: &str| text.parse().ok().filter(|side| (1..=MAX_SIDE).contains(side));
+    text.split_once(['x', 'X', '×'])
+        .and_then(|(width, height)| Some((side(width)?, side(height)?)))
+        .ok_or_else(|| {
+            format!("expected WIDTHxHEIGHT in pixels, each from 1 to {MAX_SIDE}, as in 1000x600")
+        })
+}
+
+pub fn game_number(text: &str) -> Result<usize, String> {
+    whole_number(text, 1, 1_000_000_000)
+}
+
+pub fn rays(text: &str) -> Result<u32, String> {
+    whole_number(text, 1, 32).map(|rays| rays as u32)
+}
+
+pub fn threads(text: &str) -> Result<usize, String> {
+    whole_number(text, 1, 1024)
+}
+
+pub fn runs(text: &str) -> Result<usize, String> {
+    whole_number(text, 1, 1000)
+}
+
+pub fn fps(text: &str) -> Result<f64, String> {
+    number(text, 1.0, 240.0)
+}
+
+pub fn seconds(text: &str) -> Result<f64, String> {
+    number(text, 0.0, 3600.0)
+}
+
+pub fn degrees(text: &str) -> Result<f64, String> {
+    number(text, -36_000.0, 36_000.0)
+}
+
+fn number(text: &str, min: f64, max: f64) -> Result<f64, String> {
+    text.parse()
+        .ok()
+        .filter(|number| (min..=max).contains(number))
+        .ok_or_else(|| format!("expected a number from {min} to {max}"))
+}
+
+fn whole_number(text: &str, min: usize, max: usize) -> Result<usize, String> {
+    text.parse()
+        .ok()
+        .filter(|number| (min..=max).contains(number))
+        .ok_or_else(|| format!("expected a whole number from {min} to {max}"))
+}

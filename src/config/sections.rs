@@ -1,0 +1,478 @@
+//! The sections that a `config.ini` may have, and what holds between them.
+
+use std::path::Path;
+
+use glam::DVec3;
+
+use super::ini::Section;
+use super::keys::{Key, Lines, key, read_section, show_section, unknown};
+use super::values::{
+    COLOR, Choice, Integer, Name, NameOrNone, Number, Optional, PLACE, Time, Triple, YES_NO,
+};
+use super::{
+    Board, Camera, Clock, Config, Fault, Filter, Light, MAX_SIDE, Mapping, Material, Model,
+    Normals, Pieces, Render, Sampling, Shape, Texture, material, model,
+};
+
+const MAX_LIGHTS: u32 = 100;
+const MAX_MODELS: u32 = 1000;
+
+const SECTIONS: [&str; 9] = [
+    "GlobalSettings",
+    "Camera",
+    "Light0",
+    "Model0",
+    "Render",
+    "Board",
+    "Pieces",
+    "Clock",
+    "Material white",
+];
+
+/// `[GlobalSettings]`, with the two counts that only announce other sections.
+#[derive(Default)]
+struct Global {
+    config: Config,
+    light_count: Option<u32>,
+    model_count: Option<u32>,
+}
+
+const GLOBAL_KEYS: [Key<Global>; 6] = [
+    key!("ImageWidth", Global, config.width: Integer(1, MAX_SIDE)),
+    key!("ImageHeight", Global, config.height: Integer(1, MAX_SIDE)),
+    key!("BackgroundColor", Global, config.background: COLOR),
+    key!("LightCount", Global, light_count: Optional(Integer(0, MAX_LIGHTS))),
+    key!("ModelCount", Global, model_count: Optional(Integer(0, MAX_MODELS))),
+    key!("SnellIndex", Global, config.snell_index: Number(1.0, 5.0)),
+];
+
+const CAMERA_KEYS: [Key<Camera>; 4] = [
+    key!("Position", Camera, position: PLACE),
+    key!("LookAt", Camera, look_at: PLACE),
+    key!("FOV", Camera, fov: Number(1.0, 340.0)),
+    key!("ZRot", Camera, z_rot: Number(-360.0, 360.0)),
+];
+
+const LIGHT_KEYS: [Key<Light>; 2] =
+    [key!("Position", Light, position: PLACE), key!("Color", Light, color: Triple(0.0, 100.0))];
+
+const RENDER_KEYS: [Key<Render>; 9] = [
+    key!("Antialiasing", Render, sampling: SAMPLINGS),
+    key!("Rays", Render, rays: Integer(1, 32)),
+    key!("Threshold", Render, threshold: Number(0.0, 1.0)),
+    key!("MaxDepth", Render, max_depth: Integer(0, 50)),
+    key!("MaxDistance", Render, max_distance: Number(1.0, 1e9)),
+    key!("Subdivisions", Render, subdivisions: Integer(0, 7)),
+    key!("Normals", Render, normals: NORMALS),
+    key!("Filter", Render, filter: FILTERS),
+    key!("Plain", Render, plain: YES_NO),
+];
+
+const SAMPLINGS: Choice<Sampling> = Choice(&[
+    ("none", Sampling::None),
+    ("grid", Sampling::Grid),
+    ("adaptive", Sampling::Adaptive),
+    ("0", Sampling::None),
+    ("1", Sampling::Grid),
+    ("2", Sampling::Adaptive),
+]);
+
+const NORMALS: Choice<Normals> = Choice(&[("flat", Normals::Flat), ("smooth", Normals::Smooth)]);
+
+const FILTERS: Choice<Filter> =
+    Choice(&[("nearest", Filter::Nearest), ("bilinear", Filter::Bilinear), ("mip", Filter::Mip)]);
+
+const BOARD_KEYS: [Key<Board>; 4] = [
+    key!("Light", Board, light: Name),
+    key!("Dark", Board, dark: Name),
+    key!("Frame", Board, frame: Name),
+    key!("Table", Board, table: NameOrNone),
+];
+
+const PIECES_KEYS: [Key<Pieces>; 2] =
+    [key!("White", Pieces, white: Name), key!("Black", Pieces, black: Name)];
+
+const CLOCK_KEYS: [Key<Clock>; 4] = [
+    key!("Show", Clock, show: YES_NO),
+    key!("White", Clock, white: Time),
+    key!("Black", Clock, black: Time),
+    key!("Case", Clock, case: Name),
+];
+
+/// A section with a number in its name.
+struct Numbered<T> {
+    number: u32,
+    name: String,
+    value: T,
+    lines: Lines,
+}
+
+/// A name of a material in use, and the line that uses it.
+struct Use {
+    line: usize,
+    key: &'static str,
+    name: String,
+    by_plane: bool,
+}
+
+/// Turns sections into settings over those of `base`; whatever cannot be used is added to `faults`.
+/// Files that are named are sought from `folder` on.
+pub fn interpret(
+    document: &[Section],
+    base: Config,
+    folder: &Path,
+    faults: &mut Vec<Fault>,
+) -> Config {
+    let mut global = Global { config: base, ..Global::default() };
+    let mut camera_line = 0;
+    let mut lights: Vec<Numbered<Light>> = Vec::new();
+    let mut models: Vec<Numbered<Model>> = Vec::new();
+    let mut uses: Vec<Use> = Vec::new();
+    let mut seen: Vec<String> = Vec::new();
+    for section in document {
+        let name = section.name.to_lowercase();
+        if seen.contains(&name) {
+            let message = format!("the section [{}] stands here a second time", section.name);
+            faults.push(Fault { line: section.line, message });
+            continue;
+        }
+        let config = &mut global.config;
+        match name.as_str() {
+            "globalsettings" => {
+                read_section(section, &GLOBAL_KEYS, &mut global, faults);
+            }
+            "camera" => {
+                camera_line = section.line;
+                read_section(section, &CAMERA_KEYS, &mut config.camera, faults);
+            }
+            "render" => {
+                read_section(section, &RENDER_KEYS, &mut config.render, faults);
+            }
+            "board" => {
+                let lines = read_section(section, &BOARD_KEYS, &mut config.board, faults);
+                let Board { light, dark, frame, table } = &config.board;
+                uses.extend([
+                    lines.uses("Light", light),
+                    lines.uses("Dark", dark),
+                    lines.uses("Frame", frame),
+                ]);
+                uses.extend(
+                    table.as_ref().map(|name| Use { by_plane: true, ..lines.uses("Table", name) }),
+                );
+            }
+            "pieces" => {
+                let lines = read_section(section, &PIECES_KEYS, &mut config.pieces, faults);
+                let Pieces { white, black } = &config.pieces;
+                uses.extend([lines.uses("White", white), lines.uses("Black", black)]);
+            }
+            "clock" => {
+                let lines = read_section(section, &CLOCK_KEYS, &mut config.clock, faults);
+                uses.push(lines.uses("Case", &config.clock.case));
+            }
+            _ if let Some(material) = name.strip_prefix("material ").map(str::trim_start) => {
+                let value = config.materials.entry(material.to_owned()).or_default();
+                let lines = read_section(section, &material::KEYS, value, faults);
+                check_material(value, section.name, folder, &lines, faults);
+            }
+            _ if let Some(number) = number_after(&name, "light") => {
+                lights.push(numbered(section, number, &LIGHT_KEYS, faults));
+            }
+            _ if let Some(number) = number_after(&name, "model") => {
+                let section: Numbered<Model> = numbered(section, number, &model::KEYS, faults);
+                section.value.check(&section.name, &section.lines, faults);
+                let by_plane = section.value.shape == Shape::Plane;
+                let used = section.lines.uses("Material", &section.value.material);
+                uses.push(Use { by_plane, ..used });
+                models.push(section);
+            }
+            _ => faults.push(Fault {
+                line: section.line,
+                message: unknown("section", section.name, SECTIONS),
+            }),
+        }
+        seen.push(name);
+    }
+    let Global { mut config, light_count, model_count } = global;
+    if config.camera.position.distance(config.camera.look_at) < 1e-9 {
+        faults.push(Fault {
+            line: camera_line,
+            message: "the camera's LookAt is its own Position, expected another point".to_owned(),
+        });
+    }
+    for light in &lights {
+        if let Some(missing) = light.lines.first_missing(&["Position", "Color"]) {
+            let message = format!("[{}] has no {missing}, expected one", light.name);
+            faults.push(Fault { line: light.lines.of(""), message });
+        }
+    }
+    if let Some(lights) = counted("Light", light_count, MAX_LIGHTS, lights, faults) {
+        config.lights = lights;
+    }
+    if let Some(models) = counted("Model", model_count, MAX_MODELS, models, faults) {
+        config.models = models;
+    }
+    for used in uses {
+        check_use(&config, &used, faults);
+    }
+    config
+}
+
+impl Lines {
+    fn uses(&self, key: &'static str, name: &str) -> Use {
+        Use { line: self.of(key), key, name: name.to_owned(), by_plane: false }
+    }
+}
+
+/// The number behind `word` in `name`, written plainly.
+fn number_after(name: &str, word: &str) -> Option<u32> {
+    let digits = name.strip_prefix(word)?;
+    digits.parse().ok().filter(|number: &u32| number.to_string() == digits)
+}
+
+fn numbered<T: Default>(
+    section: &Section,
+    number: u32,
+    keys: &[Key<T>],
+    faults: &mut Vec<Fault>,
+) -> Numbered<T> {
+    let mut value = T::default();
+    let lines = read_section(section, keys, &mut value, faults);
+    Numbered { number, name: section.name.to_owned(), value, lines }
+}
+
+/// A file that speaks of lights (or models) describes all of them: as many sections as their count
+/// says. `None` when it does not speak of them.
+fn counted<T>(
+    what: &str,
+    count: Option<u32>,
+    max: u32,
+    mut sections: Vec<Numbered<T>>,
+    faults: &mut Vec<Fault>,
+) -> Option<Vec<T>> {
+    if count.is_none() && sections.is_empty() {
+        return None;
+    }
+    let highest = sections.iter().map(|section| section.number.saturating_add(1)).max();
+    let count = count.or(highest).unwrap_or_default().min(max);
+    for section in sections.iter().filter(|section| section.number >= count) {
+        let message = format!("there is a [{}], but {what}Count is {count}", section.name);
+        faults.push(Fault { line: section.lines.of(""), message });
+    }
+    for number in 0..count {
+        if !sections.iter().any(|section| section.number == number) {
+            let message = format!("{what}Count is {count}, expected a section [{what}{number}]");
+            faults.push(Fault { line: 0, message });
+        }
+    }
+    sections.sort_by_key(|section| section.number);
+    Some(sections.into_iter().map(|section| section.value).collect())
+}
+
+/// Checks what single keys of a material cannot show; its bitmap is sought from `folder` on.
+fn check_material(
+    material: &mut Material,
+    section: &str,
+    folder: &Path,
+    lines: &Lines,
+    faults: &mut Vec<Fault>,
+) {
+    let mut fault = |key, message| faults.push(Fault { line: lines.of(key), message });
+    if material.texture != Texture::Bitmap {
+        return;
+    }
+    if lines.give("Bitmap") {
+        material.bitmap = folder.join(&material.bitmap);
+    }
+    if material.bitmap.as_os_str().is_empty() {
+        fault("Texture", format!("[{section}] has no Bitmap, expected the name of a picture"));
+    } else if !material.bitmap.is_file() {
+        let path = material.bitmap.display();
+        fault("Bitmap", format!("there is no picture `{path}`, expected a BMP or PNG file"));
+    }
+    for (key, vector) in [("U", material.u), ("V", material.v)] {
+        if vector == DVec3::ZERO {
+            fault(key, format!("{key} has the length 0, expected a direction"));
+        }
+    }
+    let both = material.u.cross(material.v).length();
+    let area = material.u.length() * material.v.length();
+    if area > 0.0 && both < 1e-9 * area {
+        let expected = match material.mapping {
+            Mapping::Planar => "two sides of the picture",
+            Mapping::Cylindrical | Mapping::Spherical => "an axis and a direction from it",
+        };
+        fault("V", format!("U and V have the same direction, expected {expected}"));
+    }
+}
+
+fn check_use(config: &Config, used: &Use, faults: &mut Vec<Fault>) {
+    let Use { line, key, name, by_plane } = used;
+    let message = match config.materials.get(name) {
+        None => {
+            let known = config.materials.keys().map(String::as_str);
+            format!("{key}: {}", unknown("material", name, known))
+        }
+        Some(material) if *by_plane && material.is_transparent() => format!(
+            "{key} `{name}` is transparent, expected another: a plane has no inside to look through"
+        ),
+        Some(_) => return,
+    };
+    faults.push(Fault { line: *line, message });
+}
+
+/// Prints `config` so that [`interpret`] reads the same again.
+pub fn show(config: &Config) -> String {
+    let mut out = String::new();
+    let global = Global {
+        light_count: Some(config.lights.len() as u32),
+        model_count: Some(config.models.len() as u32),
+        config: config.clone(),
+    };
+    show_section("GlobalSettings", &GLOBAL_KEYS, &global, &mut out);
+    for (number, light) in config.lights.iter().enumerate() {
+        show_section(&format!("Light{number}"), &LIGHT_KEYS, light, &mut out);
+    }
+    show_section("Camera", &CAMERA_KEYS, &config.camera, &mut out);
+    show_section("Render", &RENDER_KEYS, &config.render, &mut out);
+    show_section("Board", &BOARD_KEYS, &config.board, &mut out);
+    show_section("Pieces", &PIECES_KEYS, &config.pieces, &mut out);
+    show_section("Clock", &CLOCK_KEYS, &config.clock, &mut out);
+    for (number, model) in config.models.iter().enumerate() {
+        show_section(&format!("Model{number}"), &model::KEYS, model, &mut out);
+    }
+    for (name, material) in &config.materials {
+        show_section(&format!("Material {name}"), &material::KEYS, material, &mut out);
+    }
+    out
+}
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_fault_is_reported_with_its_line() {
+        let cases = [
+            (
+                "[GlobalSettings]\nImageWidht=3",
+                "line 2: there is no key `ImageWidht`, did you mean `ImageWidth`?",
+            ),
+            ("[Global]\n", "line 1: there is no section `Global`, did you mean `GlobalSettings`?"),
+            (
+                "[GlobalSettings]\nImageWidth=-3",
+                "line 2: ImageWidth is `-3`, expected a whole number from 1 to 16384",
+            ),
+            ("[GlobalSettings]\nImageWidth=NaN", "line 2: ImageWidth is `NaN`, expected"),
+            ("[GlobalSettings]\nSnellIndex=nan", "line 2: SnellIndex is `nan`, expected a number"),
+            (
+                "[GlobalSettings]\nBackgroundColor=0,0",
+                "line 2: BackgroundColor is `0,0`, expected three numbers from 0 to 1",
+            ),
+            ("[GlobalSettings]\nModelCount=1", "ModelCount is 1, expected a section [Model0]"),
+            ("[Model0]\nShape=cone", "line 2: Shape is `cone`, expected one of plane, sphere, box"),
+            ("[Model0]\nShape=sphere\nCenter=0,0,0", "line 1: [Model0] has no Radius"),
+            (
+                "[Model0]\nShape=plane\nOrigin=0,0,0\nNormal=0,0,0",
+                "line 4: Normal has the length 0",
+            ),
+            (
+                "[Model0]\nShape=sphere\nCenter=0,0,0\nRadius=1\nMin=0,0,0",
+                "line 5: Min is for a box, and [Model0] is none",
+            ),
+            (
+                "[Model0]\nShape=box\nMin=0,0,0\nMax=1,0,1",
+                "line 4: Min is not below Max in each of its numbers",
+            ),
+            (
+                "[Model0]\nShape=plane\nOrigin=0,0,0\nNormal=0,1,0\nMaterial=glass",
+                "line 5: Material `glass` is transparent, expected another: a plane has no inside",
+            ),
+            ("[Board]\nTable=glass", "line 2: Table `glass` is transparent"),
+            (
+                "[Pieces]\nWhite=boxwod",
+                "line 2: White: there is no material `boxwod`, did you mean `boxwood`?",
+            ),
+            ("[Material m]\nTexture=bitmap", "line 2: [Material m] has no Bitmap"),
+            (
+                "[Material m]\nTexture=bitmap\nBitmap=no/such.png",
+                "line 3: there is no picture `no/such.png`, expected a BMP or PNG file",
+            ),
+            (
+                "[Material m]\nTexture=bitmap\nBitmap=Cargo.toml\nU=0,0,0",
+                "line 4: U has the length 0, expected a direction",
+            ),
+            (
+                "[Material m]\nTexture=bitmap\nBitmap=Cargo.toml\nU=0,0,2\nV=0,0,-1",
+                "line 5: U and V have the same direction",
+            ),
+            ("[Material m]\nGrain=x", "line 2: Grain is for a texture of wood"),
+            ("[Clock]\nWhite=61:00", "line 2: White is `61:00`, expected a time"),
+            (
+                "[Camera]\nXyzzy=0",
+                "line 2: there is no key `Xyzzy`, expected one of Position, LookAt, FOV, ZRot",
+            ),
+            ("[Camera]\nFOV=0", "line 2: FOV is `0`, expected a number from 1 to 340"),
+            ("[Camera]\nFOV=90\nfov=80", "line 3: FOV is given here a second time in [Camera]"),
+            ("[Camera]\nPosition=1,2,inf", "line 2: Position is `1,2,inf`, expected three numbers"),
+            ("[Camera]\nPosition=14,0,14", "line 1: the camera's LookAt is its own Position"),
+            ("[Camera]\n[Camera]\n", "line 2: the section [Camera] stands here a second time"),
+            ("ZRot=10", "line 1: `ZRot=10` stands before the first [section]"),
+            ("[Camera]\n\nZRot", "line 3: `ZRot` is neither a [section] nor a key=value"),
+            (
+                "[GlobalSettings]\nLightCount=2\n[Light0]\nPosition=0,1,0\nColor=1,1,1",
+                "expected a section [Light1]",
+            ),
+            (
+                "[Light0]\nPosition=0,1,0\n[Light1]\nPosition=0,1,0\nColor=1,1,1",
+                "line 1: [Light0] has no Color",
+            ),
+            (
+                "[GlobalSettings]\nLightCount=0\n[Light0]\nPosition=0,1,0\nColor=1,1,1",
+                "line 3: there is a [Light0], but LightCount is 0",
+            ),
+        ];
+        for (text, message) in cases {
+            let error = Config::parse(text).unwrap_err().to_string();
+            assert!(error.contains(message), "{text:?} gave {error:?}");
+        }
+    }
+
+    #[test]
+    fn all_faults_come_together_in_the_order_of_their_lines() {
+        let text = "[Camera]\nFOV=x\n[GlobalSettings]\nImageWidth=0\nrubbish\n";
+        let lines: Vec<usize> =
+            Config::parse(text).unwrap_err().faults.iter().map(|fault| fault.line).collect();
+        assert_eq!(lines, [2, 4, 5]);
+    }
+
+    #[test]
+    fn the_thesis_excerpt_is_read_when_it_names_its_second_light() {
+        let text = "[GlobalSettings]\r\nImageWidth=300\r\nImageHeight=300\r\n\
+            BackgroundColor=0,0,0\r\nLightCount=2\r\nModelCount=0\r\nSnellIndex=1.0\r\n\
+            [Light0]\r\nPosition=0,150,-50\r\nColor=0.8,0.8,0.8\r\n\
+            [Light1]\r\nPosition=90, 90, 20\r\nColor=.5,.5,.5 ; ours\r\n\
+            [Camera]\r\nPosition=45,15,-30\r\nLookAt=14,0,14\r\nFOV=90\r\nZRot=10\r\n";
+        let config = Config::parse(text).unwrap();
+        assert_eq!((config.width, config.height), (300, 300));
+        assert_eq!(config.lights, Config::default().lights);
+        assert_eq!(config.camera.z_rot, 10.0);
+    }
+
+    #[test]
+    fn what_is_printed_is_read_the_same() {
+        let text = "[GlobalSettings]\nImageWidth=7\n[Light0]\nPosition=1,2.5,-3e2\nColor=1,0.1,0\n\
+            [Camera]\nZRot=-0.1\n[Render]\nAntialiasing=2\nFilter=mip\n[Board]\nTable=Walnut\n\
+            [Pieces]\nWhite=own\n[Clock]\nShow=yes\nWhite=1:02:03\n\
+            [Model0]\nShape=plane\nOrigin=0,-9,0\nNormal=0,1,0\nMaterial=floor\n\
+            [Model1]\nShape=box\nMin=0,0,0\nMax=1,1,1\nRotation=0,45,0\n\
+            [Material own]\nTexture=marble\nOctaves=3\n[Material white]\nShininess=7\n\
+            [Material floor]\nTexture=bitmap\nBitmap=Cargo.toml\nMapping=spherical\nU=0,0,2\n";
+        for config in [Config::default(), Config::parse(text).unwrap()] {
+            assert_eq!(Config::parse(&config.to_ini()).unwrap(), config);
+        }
+    }
+
+    #[test]
+    fn an_empty_file_is_the_default() {
+        assert_eq!(Config::parse("\u{feff}; nothing\n").unwrap(), Config::default());
+    }
+}

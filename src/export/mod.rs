@@ -1,0 +1,5 @@
+//! A scene as another renderer's text.
+
+mod pov;
+
+pub use pov::{PovScene, pov};

@@ -1,0 +1,120 @@
+//! Prisms: a closed outline in the plane of x and y, pushed along the z axis.
+
+use glam::{DVec2, DVec3};
+use smallvec::SmallVec;
+
+use super::polygon::{Normals, Segment};
+use super::{Bounds, CurveError, Hit, Outline, Ray, Shape, Solid, Span, Spans};
+
+/// What lies within an outline from one height along z to another.
+pub struct Prism {
+    segments: Vec<Segment>,
+    bounds: Bounds,
+}
+
+impl Prism {
+    /// Pushes `outline` after `subdivisions` steps from z = `back` to z = `front`, either of which
+    /// may be the greater.
+    ///
+    /// # Errors
+    /// When the subdivided outline bounds nothing or meets itself, or the heights are the same.
+    pub fn new(
+        outline: &Outline,
+        subdivisions: u32,
+        normals: Normals,
+        back: f64,
+        front: f64,
+    ) -> Result<Prism, CurveError> {
+        let segments = outline.segments(subdivisions, normals)?;
+        if back == front {
+            return Err(CurveError::NoBody);
+        }
+        let corners = segments.iter().flat_map(|segment| {
+            let DVec2 { x, y } = segment.from;
+            [DVec3::new(x, y, back), DVec3::new(x, y, front)]
+        });
+        Ok(Prism { bounds: Bounds::of(corners), segments })
+    }
+
+    /// The subdivided outline, anticlockwise from x towards y.
+    pub fn segments(&self) -> &[Segment] {
+        &self.segments
+    }
+
+    /// The hits of the endless prism's walls by the line of `ray`, in ascending order and even in
+    /// number: each vertex lies on one side of the line, and a wall is crossed where its ends
+    /// lie on different ones.
+    fn walls(&self, ray: &Ray) -> SmallVec<[Hit; 8]> {
+        let (origin, direction) = (ray.origin.truncate(), ray.direction.truncate());
+        let is_left = |point: DVec2| direction.perp_dot(point - origin) > 0.0;
+        let mut hits: SmallVec<[Hit; 8]> = SmallVec::new();
+        for segment in &self.segments {
+            if is_left(segment.from) == is_left(segment.to) {
+                continue;
+            }
+            let along = segment.to - segment.from;
+            let t = (segment.from - origin).perp_dot(along) / direction.perp_dot(along);
+            let share = segment.share(origin + direction * t);
+            hits.push(Hit {
+                t,
+                normal: segment.normal.extend(0.0),
+                shading: segment.smooth_normal(share).extend(0.0),
+            });
+        }
+        hits.sort_by(|a, b| a.t.total_cmp(&b.t));
+        hits
+    }
+}
+
+impl Solid for Prism {
+    fn shape(&self) -> Shape<'_> {
+        Shape::Prism(self)
+    }
+
+    fn bounds(&self) -> Bounds {
+        self.bounds
+    }
+
+    fn contains(&self, point: DVec3) -> bool {
+        let (x, y) = (point.x, point.y);
+        // Walls passed on the way along x: an odd number when inside.
+        let passed = self.segments.iter().filter(|segment| {
+            let (from, to) = (segment.from, segment.to);
+            (from.y <= y) != (to.y <= y)
+                && from.x + (y - from.y) / (to.y - from.y) * (to.x - from.x) > x
+        });
+        self.bounds.min.z < point.z && point.z < self.bounds.max.z && passed.count() % 2 == 1
+    }
+
+    fn spans(&self, ray: &Ray, spans: &mut Spans) {
+        let Bounds { min, max } = self.bounds;
+        let (oz, dz) = (ray.origin.z, ray.direction.z);
+        let lids = if dz == 0.0 {
+            if oz <= min.z || oz >= max.z {
+                return;
+            }
+            Span {
+                enter: Hit::new(f64::NEG_INFINITY, DVec3::NEG_Z),
+                exit: Hit::new(f64::INFINITY, DVec3::Z),
+            }
+        } else {
+            let low = Hit::new((min.z - oz) / dz, DVec3::NEG_Z);
+            let high = Hit::new((max.z - oz) / dz, DVec3::Z);
+            let (enter, exit) = if dz > 0.0 { (low, high) } else { (high, low) };
+            Span { enter, exit }
+        };
+        if ray.direction.truncate() == DVec2::ZERO {
+            if self.contains(DVec3::new(ray.origin.x, ray.origin.y, min.z.midpoint(max.z))) {
+                spans.push(lids);
+            }
+            return;
+        }
+        for pair in self.walls(ray).chunks_exact(2) {
+            let enter = if pair[0].t > lids.enter.t { pair[0] } else { lids.enter };
+            let exit = if pair[1].t < lids.exit.t { pair[1] } else { lids.exit };
+            if enter.t < exit.t {
+                spans.push(Span { enter, exit });
+            }
+        }
+    }
+}

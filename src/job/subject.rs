@@ -1,0 +1,79 @@
+//! What a single picture shows.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::report::texts;
+use super::{JobError, Progress, say_problems, shown};
+use crate::game::{Game, Moment, Source};
+use crate::notation::Placement;
+use crate::timeline::{Frame, Timeline};
+
+/// Where a position comes from.
+#[derive(Clone, Debug)]
+pub enum Subject {
+    /// Pieces on squares, and their FEN for the picture's own text.
+    Placement { placement: Placement, fen: String },
+    /// A position of a game.
+    Game { file: PathBuf, number: usize, at: Moment },
+}
+
+/// What to show, and what the picture says of itself.
+pub(super) struct Shot {
+    pub frame: Frame,
+    pub texts: Vec<(&'static str, String)>,
+    /// Whether the whole game could be read, where it comes from one.
+    pub is_whole: bool,
+}
+
+impl Subject {
+    /// Reads the position.
+    pub(super) fn read(&self, progress: &dyn Progress) -> Result<Shot, JobError> {
+        let (file, number, at) = match self {
+            Subject::Placement { placement, fen } => {
+                let frame = Frame::still(*placement);
+                return Ok(Shot { frame, texts: vec![("FEN", fen.clone())], is_whole: true });
+            }
+            Subject::Game { file, number, at } => (file, *number, *at),
+        };
+        let name = shown(file);
+        let mut games = 0;
+        for game in Source::open(file)?.games() {
+            let game = game?;
+            games = game.number;
+            if game.number == number {
+                say_problems(&name, &game, progress);
+                return shot(name, &game, at);
+            }
+        }
+        Err(JobError::NothingSelected { file: name, games })
+    }
+
+    /// Refuses to write over the file of the game.
+    pub(super) fn is_not(&self, output: &Path) -> Result<(), JobError> {
+        let place = |path: &Path| fs::canonicalize(path).ok();
+        match self {
+            Subject::Game { file, .. }
+                if place(file).is_some_and(|file| place(output) == Some(file)) =>
+            {
+                Err(JobError::OutputIsInput { path: output.to_owned() })
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+fn shot(file: String, game: &Game, at: Moment) -> Result<Shot, JobError> {
+    if !game.start_is_known {
+        return Err(JobError::NoPosition { file, game: game.number });
+    }
+    let ply = at.ply(game).map_err(|_| JobError::NoSuchMoment {
+        file,
+        game: game.number,
+        moment: at,
+        start: game.moment_name(0),
+        end: game.moment_name(game.plies.len()),
+    })?;
+    let frame = Timeline::new(game, ply, ply, None, 0.0).frame(0);
+    Ok(Shot { texts: texts(game, &frame), frame, is_whole: game.is_whole() })
+}

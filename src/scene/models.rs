@@ -1,0 +1,27 @@
+//! Bodies that settings add to the scene.
+
+use std::sync::Arc;
+
+use super::Object;
+use super::board::standing;
+use super::material::{MaterialError, Materials};
+use crate::config::{Model, Shape};
+use crate::geometry::transform::{rotation_x, rotation_y, rotation_z, translation};
+use crate::geometry::{Cuboid, Placed, Plane, Sphere};
+
+/// The body that `model` describes.
+pub fn model(model: &Model, materials: &Materials) -> Result<Object, MaterialError> {
+    let surface = materials.surface(&model.material)?;
+    Ok(match model.shape {
+        Shape::Plane => standing(Plane::new(model.origin, model.normal), surface),
+        Shape::Sphere => standing(Sphere { center: model.center, radius: model.radius }, surface),
+        Shape::Box => {
+            let turn = rotation_z(model.rotation.z)
+                * rotation_y(model.rotation.y)
+                * rotation_x(model.rotation.x);
+            let block = Cuboid::centered((model.max - model.min) / 2.0);
+            let place = translation(model.min.midpoint(model.max)) * turn;
+            Object { body: Placed::new(Arc::new(block), place), surface }
+        }
+    })
+}
