@@ -51,6 +51,7 @@ fn from_above(objects: Vec<Object>) -> Scene {
         }),
         background: DVec3::new(0.0, 0.0, 0.4),
         max_depth: 5,
+        min_weight: 0.0,
         max_distance: 1e9,
         snell_index: 1.5,
     }

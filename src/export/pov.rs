@@ -82,12 +82,12 @@ impl Writer<'_> {
             line!(self, "// Rays that end after {} units have no end here.", scene.max_distance);
         }
         line!(self, "#version 3.7;");
-        // One more than reflections: the ray from the camera is the first. What is too faint to
-        // see counts too, or its sum would be missing.
+        // One more than reflections: the ray from the camera is the first.
         line!(
             self,
-            "global_settings {{ assumed_gamma srgb max_trace_level {} adc_bailout 0 }}",
-            scene.max_depth + 1
+            "global_settings {{ assumed_gamma srgb max_trace_level {} adc_bailout {} }}",
+            scene.max_depth + 1,
+            scene.min_weight
         );
         line!(self, "background {{ rgb {} }}", vector(scene.background));
         line!(self, "camera {{");
@@ -318,7 +318,7 @@ impl Writer<'_> {
         if let Some((name, _)) = self.bitmaps.iter().find(|(_, known)| Arc::ptr_eq(known, bitmap)) {
             return name.clone();
         }
-        let name = format!("{}-{}.png", self.name, self.bitmaps.len());
+        let name = format!("{}-bitmap{}.png", self.name, self.bitmaps.len());
         self.bitmaps.push((name.clone(), bitmap.clone()));
         name
     }

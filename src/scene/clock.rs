@@ -35,8 +35,8 @@ const RED: DVec3 = DVec3::new(0.75, 0.1, 0.08);
 /// The case and its face, which looks over the board; White's dial is on White's side.
 pub fn clock(clock: &Clock, materials: &Materials) -> Result<[Object; 2], MaterialError> {
     let finish = Finish {
-        ambient: 0.25,
-        diffuse: 0.7,
+        ambient: 0.45,
+        diffuse: 0.55,
         specular: 0.2,
         shininess: 80.0,
         reflectivity: 0.0,

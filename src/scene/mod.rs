@@ -40,6 +40,8 @@ pub struct Scene {
     pub background: Rgb,
     /// How often a ray may be reflected or refracted; beyond it is black.
     pub max_depth: u32,
+    /// The least share of a pixel's colour, 0 to 1, that a ray is followed for.
+    pub min_weight: f64,
     /// How far a ray sees; beyond it is the background.
     pub max_distance: f64,
     /// Refractive index of all that is transparent.

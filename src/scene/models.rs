@@ -19,8 +19,10 @@ pub fn model(model: &Model, materials: &Materials) -> Result<Object, MaterialErr
             let turn = rotation_z(model.rotation.z)
                 * rotation_y(model.rotation.y)
                 * rotation_x(model.rotation.x);
-            let block = Cuboid::centered((model.max - model.min) / 2.0);
-            let place = translation(model.min.midpoint(model.max)) * turn;
+            // Its own space is the world before the turn, so that textures lie where they are told.
+            let middle = model.min.midpoint(model.max);
+            let place = translation(middle) * turn * translation(-middle);
+            let block = Cuboid { min: model.min, max: model.max };
             Object { body: Placed::new(Arc::new(block), place), surface }
         }
     })

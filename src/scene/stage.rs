@@ -16,6 +16,14 @@ use crate::geometry::{Csg, Placed};
 use crate::notation::{Color, Piece, Role};
 use crate::timeline::{Frame, Spot};
 
+/// A quarter of the least step that a picture can show. (Each surface of glass splits a ray in
+/// two; most of them are not worth following.)
+const MIN_WEIGHT: f64 = 1.0 / 1024.0;
+
+/// The felt under a piece. Without it a foot of glass and the square beneath would be the same
+/// plane, and rounding would choose between them pixel by pixel.
+const FELT: f64 = 0.005;
+
 /// What stays the same from frame to frame: the set, all that is no piece, lights, camera and
 /// background.
 pub struct Stage {
@@ -75,6 +83,7 @@ impl Stage {
             camera: self.camera.orbited(MIDDLE, frame.orbit),
             background: self.background,
             max_depth: self.max_depth,
+            min_weight: MIN_WEIGHT,
             max_distance: self.max_distance,
             snell_index: self.snell_index,
         }
@@ -89,7 +98,7 @@ impl Stage {
             Role::Queen => 4,
             Role::King => 5,
         };
-        let place = DVec3::new(spot.file, spot.height, spot.rank) * SQUARE;
+        let place = DVec3::new(spot.file, spot.height, spot.rank) * SQUARE + DVec3::Y * FELT;
         Object {
             body: Placed::new(self.pieces[solid].clone(), translation(place)),
             surface: self.surfaces[match piece.color {

@@ -26,9 +26,9 @@ pub struct RayCounts {
     pub primary: u64,
     /// Towards a light.
     pub shadow: u64,
-    /// From a mirror.
+    /// From a mirror, or from the inside of what is transparent.
     pub reflected: u64,
-    /// Through what is transparent, or thrown back at its inside.
+    /// Through what is transparent.
     pub refracted: u64,
 }
 

@@ -109,6 +109,7 @@ impl<'a> Tracer<'a> {
         if flight.depth >= self.scene.max_depth {
             return sum;
         }
+        let is_seen = |share: f64| share > 0.0 && flight.weight * share >= self.scene.min_weight;
         let on = |ray: Ray, share: f64, within: u32| Flight {
             ray,
             depth: flight.depth + 1,
@@ -116,26 +117,28 @@ impl<'a> Tracer<'a> {
             weight: flight.weight * share,
             within,
         };
-        let reflected = Ray { origin: leaving, direction: mirrored };
-        if finish.reflectivity > 0.0 {
-            walk.counts.reflected += 1;
-            let flight = on(reflected, finish.reflectivity, flight.within);
-            sum += self.radiance(&flight, walk) * finish.reflectivity;
-        }
+        let mut mirror = finish.reflectivity;
         if finish.transparency > 0.0 {
-            walk.counts.refracted += 1;
             let behind =
                 if is_inside { flight.within.saturating_sub(1) } else { flight.within + 1 };
             let index = |within: u32| if within > 0 { self.scene.snell_index } else { 1.0 };
             let ratio = index(flight.within) / index(behind);
-            let flight = match refracted(ray.direction, normal, ratio) {
-                Some(direction) => {
+            match refracted(ray.direction, normal, ratio) {
+                Some(direction) if is_seen(finish.transparency) => {
+                    walk.counts.refracted += 1;
                     let ray = Ray { origin: point - outward * OFFSET, direction };
-                    on(ray, finish.transparency, behind)
+                    let flight = on(ray, finish.transparency, behind);
+                    sum += self.radiance(&flight, walk) * finish.transparency;
                 }
-                None => on(reflected, finish.transparency, flight.within),
-            };
-            sum += self.radiance(&flight, walk) * finish.transparency;
+                Some(_) => {}
+                // The reflection is total: all that comes this way is thrown back.
+                None => mirror = 1.0,
+            }
+        }
+        if is_seen(mirror) {
+            walk.counts.reflected += 1;
+            let ray = Ray { origin: leaving, direction: mirrored };
+            sum += self.radiance(&on(ray, mirror, flight.within), walk) * mirror;
         }
         sum
     }
