@@ -12,7 +12,7 @@ use anyhow::Context;
 use lightsquare::job::{self, DiagramJob, JobError, Measurement, PictureSettings, Progress};
 use lightsquare::tracer::RayCounts;
 
-use cli::{Cli, Command, Request, UsageError};
+use cli::{Cli, Command, UsageError};
 use progress::{ProgressMode, Terminal, Verbosity};
 use signals::Signals;
 
@@ -22,7 +22,7 @@ const WRONG_USAGE: u8 = 2;
 const INCOMPLETE: u8 = 3;
 
 fn main() -> ExitCode {
-    run(cli::parse()).unwrap_or_else(|error| {
+    run().unwrap_or_else(|error| {
         let red = Style::new().bold().fg_color(Some(AnsiColor::Red.into()));
         // When stderr cannot be written the exit code alone must tell.
         let _ = writeln!(anstream::stderr(), "{red}error:{red:#} {error:#}");
@@ -30,16 +30,12 @@ fn main() -> ExitCode {
     })
 }
 
-fn run(request: Request) -> anyhow::Result<ExitCode> {
-    let cli = match request {
-        Request::Command(cli) => cli,
-        Request::Thesis(arguments) => {
-            let signals = Signals::default();
-            let terminal = Terminal::new(ProgressMode::Auto, Verbosity::Normal, signals);
-            return diagram(&cli::thesis_job(&arguments)?, &terminal);
-        }
-    };
-    let Cli { command, messages } = cli;
+fn run() -> anyhow::Result<ExitCode> {
+    if let Some(job) = cli::thesis_job()? {
+        let signals = Signals::default();
+        return diagram(&job, &Terminal::new(ProgressMode::Auto, Verbosity::Normal, signals));
+    }
+    let Cli { command, messages } = cli::parse();
     let terminal = |signals| Terminal::new(messages.progress, messages.verbosity(), signals);
     if let Some(picture) = command.picture().filter(|picture| picture.print_config) {
         write!(io::stdout(), "{}", picture.settings()?.config.to_ini())?;

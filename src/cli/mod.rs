@@ -20,7 +20,7 @@ use values::{FenArg, degrees, fen, fps, game_number, runs, seconds, threads};
 
 /// Reads chess games (PGN), replays them and ray-traces them into numbered pictures.
 #[derive(Parser)]
-#[command(version, propagate_version = true, max_term_width = 100)]
+#[command(version, propagate_version = true, max_term_width = 100, after_help = THESIS_LINE)]
 pub struct Cli {
     #[command(subcommand)]
     pub command: Command,
@@ -28,30 +28,28 @@ pub struct Cli {
     pub messages: MessageArgs,
 }
 
-/// What the arguments ask for.
-pub enum Request {
-    /// A command of today.
-    Command(Cli),
-    /// A line in the form of the thesis.
-    Thesis(Vec<String>),
-}
+const THESIS_LINE: &str = "\
+The form of the thesis of 2008 works too, with its set, look and camera:
+  lightsquare -config config.ini -output a.bmp -AA 2 -ssrays 3 -cpu 2 -whiteplayer KE1PE2
+              -blackplayer KE8";
 
-/// The job that a line in the form of the thesis asks for.
+/// The job that a line in the form of the thesis asks for; `None` for a command of today.
 ///
 /// # Errors
 /// An option that is none, a value that it cannot have, settings that cannot be read.
-pub fn thesis_job(arguments: &[String]) -> anyhow::Result<DiagramJob> {
-    thesis::job(arguments)
+pub fn thesis_job() -> anyhow::Result<Option<DiagramJob>> {
+    let given = arguments();
+    given.get(1..).filter(|given| thesis::is_meant(given)).map(thesis::job).transpose()
+}
+
+fn arguments() -> Vec<String> {
+    std::env::args_os().map(|argument| argument.to_string_lossy().into_owned()).collect()
 }
 
 /// Reads the arguments; whoever asks for help, or gives a wrong one, is answered at once.
-pub fn parse() -> Request {
-    let given: Vec<String> =
-        std::env::args_os().map(|argument| argument.to_string_lossy().into_owned()).collect();
-    if let Some(arguments) = given.get(1..).filter(|arguments| thesis::is_meant(arguments)) {
-        return Request::Thesis(arguments.to_vec());
-    }
+pub fn parse() -> Cli {
     // Answers are coloured before the arguments are read, so this one is looked for alone.
+    let given = arguments();
     let asked = |when: &str| {
         given.iter().any(|argument| *argument == format!("--color={when}"))
             || given.windows(2).any(|pair| pair[0] == "--color" && pair[1] == when)
@@ -68,7 +66,7 @@ pub fn parse() -> Request {
         ColorMode::Always => anstream::ColorChoice::Always.write_global(),
         ColorMode::Never => anstream::ColorChoice::Never.write_global(),
     }
-    Request::Command(cli)
+    cli
 }
 
 /// How much is said, and how.

@@ -11,9 +11,14 @@ pub struct Key<T> {
     pub name: &'static str,
     pub read: fn(&mut T, &str) -> Result<(), Expected>,
     pub show: fn(&T) -> Option<String>,
-    /// What the key is for, where it only means something beside other values; and whether these
-    /// are so.
-    pub when: Option<(&'static str, fn(&T) -> bool)>,
+    /// Where the key only means something beside other values: which these are.
+    pub only: Option<Only<T>>,
+}
+
+/// What a key is for, and whether that is so.
+pub struct Only<T> {
+    what: &'static str,
+    holds: fn(&T) -> bool,
 }
 
 /// `key!("Radius", Model, radius: Number(0.0, 1.0))`: a key, the type that its section is about, the
@@ -29,7 +34,7 @@ macro_rules! key {
             show: |target: &$target| {
                 $crate::config::values::Format::show(&$format, &target.$($field).+)
             },
-            when: None,
+            only: None,
         }
     };
 }
@@ -37,8 +42,9 @@ pub(super) use key;
 
 impl<T> Key<T> {
     /// This key, for `what` alone.
-    pub const fn only(self, what: &'static str, when: fn(&T) -> bool) -> Key<T> {
-        Key { name: self.name, read: self.read, show: self.show, when: Some((what, when)) }
+    pub const fn only(self, what: &'static str, holds: fn(&T) -> bool) -> Key<T> {
+        let only = Some(Only { what, holds });
+        Key { name: self.name, read: self.read, show: self.show, only }
     }
 }
 
@@ -90,10 +96,11 @@ pub fn read_section<T>(
         }
     }
     for key in keys {
-        if let Some((what, when)) = key.when
+        if let Some(only) = &key.only
             && lines.give(key.name)
-            && !when(target)
+            && !(only.holds)(target)
         {
+            let Only { what, .. } = only;
             let message = format!("{} is for {what}, and [{}] is none", key.name, section.name);
             faults.push(Fault { line: lines.of(key.name), message });
         }
@@ -107,7 +114,7 @@ pub fn show_section<T>(name: &str, keys: &[Key<T>], target: &T, out: &mut String
     // Writing to a string cannot fail.
     let _ = writeln!(out, "{separator}[{name}]");
     for key in keys {
-        let means_something = key.when.is_none_or(|(_, when)| when(target));
+        let means_something = key.only.as_ref().is_none_or(|only| (only.holds)(target));
         if let Some(value) = (key.show)(target).filter(|_| means_something) {
             let _ = writeln!(out, "{}={value}", key.name);
         }

@@ -1,13 +1,11 @@
 //! Our pictures beside those that POV-Ray makes of the same scenes, one ray through each pixel's
 //! middle. Where there is no `povray`, a word says so and nothing is compared.
 
-mod common;
-
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::sync::Arc;
 
-use common::{MAPPED, difference, letter, lightsquare, read};
+use crate::{CLOCK, MAPPED, difference, letter, lightsquare, read};
 use glam::{DAffine3, DVec2, DVec3};
 use image::RgbImage;
 use lightsquare::config::{self, Config, Finish};
@@ -36,19 +34,6 @@ Radius=5
 [Camera]
 Position=14,9,-20
 LookAt=14,4,14
-FOV=60
-";
-
-const CLOCK: &str = "\
-[Clock]
-Show=yes
-White=1:10:36
-Black=10:08:00
-[Board]
-Table=walnut
-[Camera]
-Position=34,14,2
-LookAt=-6,1,14
 FOV=60
 ";
 

@@ -1,13 +1,11 @@
 //! Small pictures as they were when somebody looked at them last.
 //!
-//! `LIGHTSQUARE_BLESS=1 cargo test --test golden` takes the pictures of today instead, and fails
+//! `LIGHTSQUARE_BLESS=1 cargo test --test pictures` takes the pictures of today instead, and fails
 //! all the same, so that a blessing is seen; then look at them.
-
-mod common;
 
 use std::path::Path;
 
-use common::{MAPPED, difference, letter, lightsquare, read};
+use crate::{CLOCK, MAPPED, difference, letter, lightsquare, read};
 use image::RgbImage;
 
 const ITALIAN: &str = "r1bqkb1r/pppp1ppp/2n2n2/4p3/2B1P3/5N2/PPPP1PPP/RNBQK2R";
@@ -38,19 +36,6 @@ Black=smoked-glass
 Table=boxwood
 ";
 
-const CLOCK: &str = "\
-[Clock]
-Show=yes
-White=1:10:36
-Black=10:08:00
-[Render]
-Filter=mip
-[Camera]
-Position=34,14,2
-LookAt=-6,1,14
-FOV=60
-";
-
 /// Name, settings, antialiasing.
 fn cases() -> Vec<(&'static str, String, &'static str)> {
     let filtered = |filter: &str| format!("{MAPPED}[Render]\nFilter={filter}\n");
@@ -60,7 +45,7 @@ fn cases() -> Vec<(&'static str, String, &'static str)> {
         ("wood", format!("{WOOD}{CLOSE}"), "grid"),
         ("marble", format!("{MARBLE}{CLOSE}"), "grid"),
         ("glass", format!("{GLASS}{CLOSE}"), "none"),
-        ("clock", CLOCK.to_owned(), "grid"),
+        ("clock", format!("{CLOCK}[Render]\nFilter=mip\n"), "grid"),
         ("bitmaps-nearest", filtered("nearest"), "none"),
         ("bitmaps-bilinear", filtered("bilinear"), "none"),
         ("bitmaps-mip", filtered("mip"), "none"),

@@ -1,4 +1,7 @@
-//! What tests of pictures have in common.
+//! Pictures, beside those of another renderer and beside those of yesterday.
+
+mod agreement;
+mod golden;
 
 use std::path::Path;
 
@@ -36,6 +39,20 @@ pub fn difference(a: &RgbImage, b: &RgbImage) -> Vec<u8> {
     };
     a.pixels().zip(b.pixels()).map(largest).collect()
 }
+
+/// Settings that show the clock.
+pub const CLOCK: &str = "\
+[Clock]
+Show=yes
+White=1:10:36
+Black=10:08:00
+[Board]
+Table=walnut
+[Camera]
+Position=34,14,2
+LookAt=-6,1,14
+FOV=60
+";
 
 /// Settings that lay the picture `letter.bmp` on bodies in every way.
 pub const MAPPED: &str = "\

@@ -1,0 +1,169 @@
+//! The thesis's command line, scenes for POV-Ray, settings as they are in force, measurements.
+
+use std::fs;
+use std::path::Path;
+
+use assert_cmd::Command;
+use image::RgbImage;
+use lightsquare::config::Config;
+use serde_json::Value;
+use tempfile::TempDir;
+
+/// The thesis's excerpt, with a second light where it prints only one.
+const EXCERPT: &str = "[GlobalSettings]\r\nImageWidth=120\r\nImageHeight=90\r\n\
+    BackgroundColor=0,0,0\r\nLightCount=2\r\nModelCount=0\r\nSnellIndex=1.0\r\n\
+    [Light0]\r\nPosition=0,150,-50\r\nColor=0.8,0.8,0.8\r\n\
+    [Light1]\r\nPosition=90,90,20\r\nColor=0.5,0.5,0.5\r\n\
+    [Camera]\r\nPosition=45,15,-30\r\nLookAt=14,0,14\r\nFOV=90\r\nZRot=10\r\n";
+
+const WHITE: &str = "VA1JB1SC1KD1DE1SF1JG1VH1PA2PB2PC2PD2PE2PF2PG2PH2";
+const BLACK: &str = "VA8JB8SC8KD8DE8SF8JG8VH8PA7PB7PC7PD7PE7PF7PG7PH7";
+
+fn folder() -> TempDir {
+    let folder = TempDir::new().unwrap();
+    fs::write(folder.path().join("config.ini"), EXCERPT).unwrap();
+    folder
+}
+
+fn read(path: &Path) -> RgbImage {
+    image::open(path).unwrap().to_rgb8()
+}
+
+/// Exit code, standard output and messages.
+fn run(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
+    let output = Command::cargo_bin("lightsquare")
+        .unwrap()
+        .current_dir(folder)
+        .args(arguments)
+        .output()
+        .unwrap();
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+}
+
+#[test]
+fn the_thesis_command_line_gives_its_bmp() {
+    let folder = folder();
+    let here = folder.path();
+    let line = "-config config.ini -output a.bmp -AA 2 -ssrays 3 -cpu 2 -whiteplayer";
+    let mut arguments: Vec<&str> = line.split(' ').collect();
+    arguments.extend([WHITE, "-blackplayer", BLACK]);
+    let (code, _, stderr) = run(here, &arguments);
+    assert_eq!(code, 0, "{stderr}");
+    assert_eq!(&fs::read(here.join("a.bmp")).unwrap()[..2], b"BM");
+    let today = ["diagram", "--white", WHITE, "--black", BLACK, "--aa", "2", "--ssrays", "3"];
+    let (code, _, stderr) = run(here, &[&today[..], &["-o", "b.png"]].concat());
+    assert_eq!(code, 0, "{stderr}");
+    let picture = read(&here.join("a.bmp"));
+    assert_eq!(picture.dimensions(), (120, 90));
+    assert_eq!(picture, read(&here.join("b.png")));
+}
+
+#[test]
+fn bad_thesis_lines_and_settings_get_a_sentence() {
+    let folder = folder();
+    let here = folder.path();
+    let settings = [
+        (
+            "lights.ini",
+            "[GlobalSettings]\nLightCount=3\n[Light0]\nPosition=0,1,0\nColor=1,1,1\n[Light1]\nPosition=0,2,0\nColor=1,1,1\n",
+        ),
+        ("camera.ini", "[Camera]\nLookAt=45,15,-30\n"),
+        ("window.ini", "[Model0]\nShape=plane\nOrigin=0,-9,0\nNormal=0,1,0\nMaterial=glass\n"),
+        ("bitmap.ini", "[Material m]\nTexture=bitmap\nBitmap=broken.png\n[Pieces]\nWhite=m\n"),
+        ("clock.ini", "[Clock]\nShow=yes\n"),
+    ];
+    for (name, text) in settings {
+        fs::write(here.join(name), text).unwrap();
+    }
+    fs::write(here.join("broken.png"), "no picture").unwrap();
+    let before = fs::read_dir(here).unwrap().count();
+    let cases: &[(&[&str], i32, &str)] = &[
+        (&["-whiteplayer", "KE1"], 2, "-output is missing"),
+        (&["-output", "a.bmp", "-whiteplayer", "KE"], 2, "white: the string ends at character 2"),
+        (&["-output", "a.bmp", "-config", "no.ini"], 1, "no.ini: cannot be read"),
+        (
+            &["-output", "a.bmp", "-config", "lights.ini"],
+            1,
+            "lights.ini: LightCount is 3, expected a section [Light2]",
+        ),
+        (
+            &["-output", "a.bmp", "-config", "camera.ini"],
+            1,
+            "camera.ini: line 1: the camera's LookAt is its own Position",
+        ),
+        (
+            &["diagram", "--white", "KE1", "-c", "window.ini"],
+            1,
+            "window.ini: line 5: Material `glass` is transparent",
+        ),
+        (
+            &["diagram", "--white", "KE1", "-c", "bitmap.ini"],
+            1,
+            "broken.png: cannot be read as a picture, expected BMP or PNG",
+        ),
+        (&["diagram", "--white", "KE1", "--set", "staunton"], 2, "[possible values: thesis]"),
+        (&["diagram", "--white", "KE1", "--aa", "3"], 2, "[possible values: none, grid, adaptive]"),
+        (&["diagram", "--white", "KE1", "--ssrays", "0"], 2, "a whole number from 1 to 32"),
+        (
+            &["export", "--white", "KE1", "-c", "clock.ini", "-o", "-"],
+            1,
+            "the scene has pictures (of the clock, or of materials), expected a file",
+        ),
+        (&["export", "--white", "KE1", "--format", "obj"], 2, "[possible values: pov]"),
+        (&["bench", "--runs", "0"], 2, "'--runs <N>': expected a whole number from 1 to 1000"),
+    ];
+    for (arguments, code, message) in cases {
+        let (found, stdout, stderr) = run(here, arguments);
+        assert_eq!(found, *code, "{arguments:?}: {stderr}");
+        assert!(stderr.contains(message), "{arguments:?}: {stderr}");
+        assert_eq!(stdout, "", "{arguments:?}");
+        assert_eq!(fs::read_dir(here).unwrap().count(), before, "{arguments:?} left something");
+    }
+}
+
+#[test]
+fn settings_in_force_are_printed_as_a_file_that_says_the_same() {
+    let folder = folder();
+    let here = folder.path();
+    let flags = ["render", "--print-config", "--size", "64x48", "--aa", "2", "--plain"];
+    let (code, printed, stderr) = run(here, &flags);
+    assert_eq!((code, stderr.as_str()), (0, ""));
+    let config = Config::parse(&printed).unwrap();
+    assert_eq!((config.width, config.height, config.camera.z_rot), (64, 48, 10.0));
+    assert!(config.render.plain);
+    fs::write(here.join("printed.ini"), &printed).unwrap();
+    let again = ["export", "--print-config", "-c", "printed.ini"];
+    assert_eq!(run(here, &again).1, printed);
+}
+
+#[test]
+fn a_scene_is_written_with_its_pictures_beside_it() {
+    let folder = folder();
+    let here = folder.path();
+    fs::write(here.join("clock.ini"), "[Clock]\nShow=yes\n").unwrap();
+    let arguments = ["export", "--format", "pov", "--white", "KE1JB1", "-c", "clock.ini"];
+    let (code, _, stderr) = run(here, &[&arguments[..], &["-o", "sub/king.pov"]].concat());
+    assert_eq!(code, 0, "{stderr}");
+    assert!(stderr.contains("povray +Iking.pov +W1000 +H600 -A"), "{stderr}");
+    let scene = fs::read_to_string(here.join("sub/king.pov")).unwrap();
+    assert!(scene.contains("assumed_gamma srgb") && scene.contains("king-bitmap0.png"));
+    assert_eq!(read(&here.join("sub/king-bitmap0.png")).dimensions(), (710, 377));
+    // What holds no picture fits into a pipe.
+    let (code, stdout, _) = run(here, &["export", "--white", "KE1", "-o", "-"]);
+    assert!(code == 0 && stdout.contains("camera {"));
+}
+
+#[test]
+fn the_bench_measures_the_three_settings_of_the_thesis() {
+    let folder = folder();
+    let (code, stdout, _) = run(folder.path(), &["bench", "--runs", "1", "--json"]);
+    assert_eq!(code, 0);
+    let rows: Vec<Value> = serde_json::from_str(&stdout).unwrap();
+    let thesis: Vec<f64> = rows.iter().map(|row| row["thesis_seconds"].as_f64().unwrap()).collect();
+    assert_eq!(thesis, [228.0, 56.0, 31.0]);
+    let primary: Vec<u64> =
+        rows.iter().map(|row| row["rays"]["primary"].as_u64().unwrap()).collect();
+    assert_eq!(primary, [2_400_000, 600_000, 600_000]);
+    assert!(rows.iter().all(|row| row["seconds"].as_f64().unwrap() > 0.0));
+}
