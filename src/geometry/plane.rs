@@ -35,8 +35,10 @@ impl Solid for Plane {
     fn spans(&self, ray: &Ray, spans: &mut Spans) {
         let height = (ray.origin - self.origin).dot(self.normal);
         let climb = ray.direction.dot(self.normal);
-        let start = Hit::new(f64::NEG_INFINITY, -self.normal);
-        let end = Hit::new(f64::INFINITY, self.normal);
+        // Where there is no surface, the span has an end that no ray reaches.
+        let along = ray.direction.normalize();
+        let start = Hit::new(f64::NEG_INFINITY, -along);
+        let end = Hit::new(f64::INFINITY, along);
         let crossing = Hit::new(-height / climb, self.normal);
         let inside = if climb == 0.0 {
             (height < 0.0).then_some(Span { enter: start, exit: end })
