@@ -3,7 +3,7 @@
 mod bitmap;
 mod thesis;
 
-pub use bitmap::{Bitmap, BitmapError};
+pub use bitmap::{Beyond, Bitmap, BitmapError};
 pub use thesis::thesis_set;
 
 use std::collections::BTreeMap;
@@ -50,7 +50,8 @@ pub enum AssetError {
 }
 
 impl Assets {
-    /// Builds the set as `config` wants its curves, and reads the pictures of its materials.
+    /// Builds the set as `config` wants its curves, and reads the pictures of the materials
+    /// that it uses.
     ///
     /// # Errors
     /// A picture that cannot be read.
@@ -62,7 +63,8 @@ impl Assets {
         };
         let bitmaps = config
             .bitmaps()
-            .map(|path| Ok((path.clone(), Arc::new(Bitmap::open(path)?))))
+            .into_iter()
+            .map(|path| Ok((path.clone(), Arc::new(Bitmap::open(path, config.render.filter)?))))
             .collect::<Result<_, BitmapError>>()?;
         Ok(Assets { set: thesis_set(config.render.subdivisions, normals)?, bitmaps })
     }

@@ -1,6 +1,6 @@
 //! Values of flags that are checked as they are read.
 
-use lightsquare::config::MAX_SIDE;
+use lightsquare::config::{MAX_RAYS, MAX_SIDE};
 use lightsquare::notation::Placement;
 
 /// A placement with the FEN that it was read from.
@@ -29,7 +29,7 @@ pub fn game_number(text: &str) -> Result<usize, String> {
 }
 
 pub fn rays(text: &str) -> Result<u32, String> {
-    whole_number(text, 1, 32).map(|rays| rays as u32)
+    whole_number(text, 1, MAX_RAYS as usize).map(|rays| rays as u32)
 }
 
 pub fn threads(text: &str) -> Result<usize, String> {

@@ -52,6 +52,7 @@ impl<T> Key<T> {
 pub struct Lines {
     section: usize,
     keys: Vec<(&'static str, usize)>,
+    failed: Vec<&'static str>,
 }
 
 impl Lines {
@@ -63,6 +64,11 @@ impl Lines {
     /// Whether the section gives a key.
     pub fn give(&self, key: &str) -> bool {
         self.keys.iter().any(|(name, _)| *name == key)
+    }
+
+    /// Whether the section gives a key a value that it cannot have.
+    pub fn failed(&self, key: &str) -> bool {
+        self.failed.contains(&key)
     }
 
     /// The first of `keys` that the section does not give.
@@ -78,7 +84,7 @@ pub fn read_section<T>(
     target: &mut T,
     faults: &mut Vec<Fault>,
 ) -> Lines {
-    let mut lines = Lines { section: section.line, keys: Vec::new() };
+    let mut lines = Lines { section: section.line, keys: Vec::new(), failed: Vec::new() };
     for &Entry { line, key, value } in &section.entries {
         let mut fault = |message| faults.push(Fault { line, message });
         let Some(known) = keys.iter().find(|known| known.name.eq_ignore_ascii_case(key)) else {
@@ -93,11 +99,13 @@ pub fn read_section<T>(
         lines.keys.push((name, line));
         if let Err(expected) = (known.read)(target, value) {
             fault(format!("{name} is `{value}`, expected {expected}"));
+            lines.failed.push(name);
         }
     }
     for key in keys {
         if let Some(only) = &key.only
             && lines.give(key.name)
+            && !(lines.failed("Shape") || lines.failed("Texture"))
             && !(only.holds)(target)
         {
             let Only { what, .. } = only;

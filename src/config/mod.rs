@@ -14,7 +14,7 @@ pub use material::{Axis, Finish, Mapping, Material, Texture};
 pub use model::{Model, Shape};
 pub use nearest::nearest;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use glam::DVec3;
@@ -22,6 +22,15 @@ use serde::Serialize;
 
 /// The longest side of a picture, in pixels.
 pub const MAX_SIDE: u32 = 16_384;
+
+/// The most rays along one side of a pixel.
+pub const MAX_RAYS: u32 = 32;
+
+/// World units that are farther than anything: a ray without an end.
+pub const FARTHEST: f64 = 1e9;
+
+/// A shorter vector, in world units, has no direction that can be relied on.
+const SHORTEST: f64 = 1e-6;
 
 /// What a `config.ini` says; `Default` is what the program does without one.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -72,13 +81,13 @@ pub struct Camera {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Render {
     pub sampling: Sampling,
-    /// Rays along one side of a pixel, 1 to 32, where it gets more than one.
+    /// Rays along one side of a pixel, 1 to [`MAX_RAYS`], where it gets more than one.
     pub rays: u32,
     /// How far neighbouring pixels may differ before adaptive sampling refines them, 0 to 1.
     pub threshold: f64,
     /// How often a ray may be reflected or refracted, 0 to 50; beyond it is black.
     pub max_depth: u32,
-    /// World units that a ray sees, 1 to 10⁹; beyond it is the background.
+    /// World units that a ray sees, 1 to [`FARTHEST`]; beyond it is the background.
     pub max_distance: f64,
     /// Steps of subdivision for the curves of pieces, 0 to 7.
     pub subdivisions: u32,
@@ -214,7 +223,7 @@ impl Config {
                 rays: 2,
                 threshold: 0.05,
                 max_depth: 5,
-                max_distance: 1e9,
+                max_distance: FARTHEST,
                 subdivisions: 4,
                 normals: Normals::Flat,
                 filter: Filter::Nearest,
@@ -267,9 +276,17 @@ impl Config {
         sections::show(self)
     }
 
-    /// The pictures that materials name.
-    pub fn bitmaps(&self) -> impl Iterator<Item = &PathBuf> {
-        let with_bitmap = |material: &&Material| material.texture == Texture::Bitmap;
-        self.materials.values().filter(with_bitmap).map(|material| &material.bitmap)
+    /// The pictures of the materials that are used.
+    pub fn bitmaps(&self) -> BTreeSet<&PathBuf> {
+        let Board { light, dark, frame, table } = &self.board;
+        let Pieces { white, black } = &self.pieces;
+        let clock = self.clock.show.then_some(&self.clock.case);
+        let models = self.models.iter().map(|model| &model.material);
+        let used = [light, dark, frame, white, black].into_iter().chain(table).chain(clock);
+        used.chain(models)
+            .filter_map(|name| self.materials.get(name))
+            .filter(|material| material.texture == Texture::Bitmap)
+            .map(|material| &material.bitmap)
+            .collect()
     }
 }

@@ -3,9 +3,9 @@
 use glam::DVec3;
 use serde::Serialize;
 
-use super::Fault;
 use super::keys::{Key, Lines, key};
 use super::values::{Choice, Name, Number, PLACE, Triple};
+use super::{Fault, SHORTEST};
 
 /// What a `[Model…]` section says.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -71,6 +71,9 @@ impl Default for Model {
 impl Model {
     /// Checks what single keys cannot show.
     pub(super) fn check(&self, name: &str, lines: &Lines, faults: &mut Vec<Fault>) {
+        if lines.failed("Shape") {
+            return;
+        }
         let mut fault = |key, message| faults.push(Fault { line: lines.of(key), message });
         let needed: &[&str] = match self.shape {
             Shape::Plane => &["Shape", "Origin", "Normal"],
@@ -80,8 +83,8 @@ impl Model {
         if let Some(missing) = lines.first_missing(needed) {
             fault("", format!("[{name}] has no {missing}, expected one"));
         }
-        if self.normal == DVec3::ZERO {
-            fault("Normal", "Normal has the length 0, expected a direction".to_owned());
+        if self.normal.length() < SHORTEST {
+            fault("Normal", "Normal has no length, expected a direction".to_owned());
         }
         if self.shape == Shape::Box && !self.min.cmplt(self.max).all() {
             let message = "Min is not below Max in each of its numbers, expected a box";

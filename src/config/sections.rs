@@ -2,16 +2,15 @@
 
 use std::path::Path;
 
-use glam::DVec3;
-
 use super::ini::Section;
 use super::keys::{Key, Lines, key, read_section, show_section, unknown};
 use super::values::{
     COLOR, Choice, Integer, Name, NameOrNone, Number, Optional, PLACE, Time, Triple, YES_NO,
 };
 use super::{
-    Board, Camera, Clock, Config, Fault, Filter, Finish, Light, MAX_SIDE, Mapping, Material, Model,
-    Normals, Pieces, Render, Sampling, Shape, Texture, material, model,
+    Board, Camera, Clock, Config, FARTHEST, Fault, Filter, Finish, Light, MAX_RAYS, MAX_SIDE,
+    Mapping, Material, Model, Normals, Pieces, Render, SHORTEST, Sampling, Shape, Texture,
+    material, model,
 };
 
 const MAX_LIGHTS: u32 = 100;
@@ -58,10 +57,10 @@ const LIGHT_KEYS: [Key<Light>; 2] =
 
 const RENDER_KEYS: [Key<Render>; 9] = [
     key!("Antialiasing", Render, sampling: SAMPLINGS),
-    key!("Rays", Render, rays: Integer(1, 32)),
+    key!("Rays", Render, rays: Integer(1, MAX_RAYS)),
     key!("Threshold", Render, threshold: Number(0.0, 1.0)),
     key!("MaxDepth", Render, max_depth: Integer(0, 50)),
-    key!("MaxDistance", Render, max_distance: Number(1.0, 1e9)),
+    key!("MaxDistance", Render, max_distance: Number(1.0, FARTHEST)),
     key!("Subdivisions", Render, subdivisions: Integer(0, 7)),
     key!("Normals", Render, normals: NORMALS),
     key!("Filter", Render, filter: FILTERS),
@@ -112,7 +111,16 @@ struct Use {
     line: usize,
     key: &'static str,
     name: String,
-    by_plane: bool,
+    of: Part,
+}
+
+/// What a material is used for.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Part {
+    Body,
+    Plane,
+    /// One kind of the board's squares.
+    Square,
 }
 
 /// Turns sections into settings over those of `base`; whatever cannot be used is added to `faults`.
@@ -130,7 +138,8 @@ pub fn interpret(
     let mut uses: Vec<Use> = Vec::new();
     let mut seen: Vec<String> = Vec::new();
     for section in document {
-        let name = section.name.to_lowercase();
+        let words: Vec<String> = section.name.split_whitespace().map(str::to_lowercase).collect();
+        let name = words.join(" ");
         if seen.contains(&name) {
             let message = format!("the section [{}] stands here a second time", section.name);
             faults.push(Fault { line: section.line, message });
@@ -152,12 +161,12 @@ pub fn interpret(
                 let lines = read_section(section, &BOARD_KEYS, &mut config.board, faults);
                 let Board { light, dark, frame, table } = &config.board;
                 uses.extend([
-                    lines.uses("Light", light),
-                    lines.uses("Dark", dark),
+                    Use { of: Part::Square, ..lines.uses("Light", light) },
+                    Use { of: Part::Square, ..lines.uses("Dark", dark) },
                     lines.uses("Frame", frame),
                 ]);
                 uses.extend(
-                    table.as_ref().map(|name| Use { by_plane: true, ..lines.uses("Table", name) }),
+                    table.as_ref().map(|name| Use { of: Part::Plane, ..lines.uses("Table", name) }),
                 );
             }
             "pieces" => {
@@ -169,7 +178,11 @@ pub fn interpret(
                 let lines = read_section(section, &CLOCK_KEYS, &mut config.clock, faults);
                 uses.push(lines.uses("Case", &config.clock.case));
             }
-            _ if let Some(material) = name.strip_prefix("material ").map(str::trim_start) => {
+            "material none" => {
+                let message = "a material cannot be named none, expected another name".to_owned();
+                faults.push(Fault { line: section.line, message });
+            }
+            _ if let Some(material) = name.strip_prefix("material ") => {
                 let value = config.materials.entry(material.to_owned()).or_default();
                 let lines = read_section(section, &material::KEYS, value, faults);
                 check_material(value, section.name, folder, &lines, faults);
@@ -180,9 +193,9 @@ pub fn interpret(
             _ if let Some(number) = number_after(&name, "model") => {
                 let section: Numbered<Model> = numbered(section, number, &model::KEYS, faults);
                 section.value.check(&section.name, &section.lines, faults);
-                let by_plane = section.value.shape == Shape::Plane;
                 let used = section.lines.uses("Material", &section.value.material);
-                uses.push(Use { by_plane, ..used });
+                let is_plane = section.value.shape == Shape::Plane;
+                uses.push(Use { of: if is_plane { Part::Plane } else { used.of }, ..used });
                 models.push(section);
             }
             _ => faults.push(Fault {
@@ -219,7 +232,7 @@ pub fn interpret(
 
 impl Lines {
     fn uses(&self, key: &'static str, name: &str) -> Use {
-        Use { line: self.of(key), key, name: name.to_owned(), by_plane: false }
+        Use { line: self.of(key), key, name: name.to_owned(), of: Part::Body }
     }
 }
 
@@ -252,16 +265,33 @@ fn counted<T>(
     if count.is_none() && sections.is_empty() {
         return None;
     }
-    let highest = sections.iter().map(|section| section.number.saturating_add(1)).max();
-    let count = count.or(highest).unwrap_or_default().min(max);
-    for section in sections.iter().filter(|section| section.number >= count) {
-        let message = format!("there is a [{}], but {what}Count is {count}", section.name);
-        faults.push(Fault { line: section.lines.of(""), message });
-    }
-    for number in 0..count {
-        if !sections.iter().any(|section| section.number == number) {
-            let message = format!("{what}Count is {count}, expected a section [{what}{number}]");
-            faults.push(Fault { line: 0, message });
+    let missing = |count: u32| {
+        (0..count).find(|number| !sections.iter().any(|section| section.number == *number))
+    };
+    let mut fault = |line, message| faults.push(Fault { line, message });
+    match count {
+        Some(count) => {
+            for section in sections.iter().filter(|section| section.number >= count) {
+                let message = format!("there is a [{}], but {what}Count is {count}", section.name);
+                fault(section.lines.of(""), message);
+            }
+            if let Some(number) = missing(count) {
+                let message =
+                    format!("{what}Count is {count}, expected a section [{what}{number}]");
+                fault(0, message);
+            }
+        }
+        None => {
+            for section in &sections {
+                let Numbered { number, name, lines, .. } = section;
+                if *number >= max {
+                    let message = format!("there is a [{name}], expected numbers below {max}");
+                    fault(lines.of(""), message);
+                } else if let Some(number) = missing(*number) {
+                    let message = format!("there is a [{name}], but no [{what}{number}]");
+                    fault(lines.of(""), message);
+                }
+            }
         }
     }
     sections.sort_by_key(|section| section.number);
@@ -297,8 +327,8 @@ fn check_material(
         fault("Bitmap", format!("there is no picture `{path}`, expected a BMP or PNG file"));
     }
     for (key, vector) in [("U", material.u), ("V", material.v)] {
-        if vector == DVec3::ZERO {
-            fault(key, format!("{key} has the length 0, expected a direction"));
+        if vector.length() < SHORTEST {
+            fault(key, format!("{key} has no length, expected a direction"));
         }
     }
     let both = material.u.cross(material.v).length();
@@ -313,15 +343,18 @@ fn check_material(
 }
 
 fn check_use(config: &Config, used: &Use, faults: &mut Vec<Fault>) {
-    let Use { line, key, name, by_plane } = used;
+    let Use { line, key, name, of } = used;
     let message = match config.materials.get(name) {
         None => {
             let known = config.materials.keys().map(String::as_str);
             format!("{key}: {}", unknown("material", name, known))
         }
-        Some(material) if *by_plane && material.is_transparent() => format!(
+        Some(material) if *of == Part::Plane && material.is_transparent() => format!(
             "{key} `{name}` is transparent, expected another: a plane has no inside to look through"
         ),
+        Some(material) if *of == Part::Square && material.texture == Texture::Chequer => {
+            format!("{key} `{name}` is a chequer, expected a material for one kind of squares")
+        }
         Some(_) => return,
     };
     faults.push(Fault { line: *line, message });
@@ -377,10 +410,7 @@ mod tests {
             ("[GlobalSettings]\nModelCount=1", "ModelCount is 1, expected a section [Model0]"),
             ("[Model0]\nShape=cone", "line 2: Shape is `cone`, expected one of plane, sphere, box"),
             ("[Model0]\nShape=sphere\nCenter=0,0,0", "line 1: [Model0] has no Radius"),
-            (
-                "[Model0]\nShape=plane\nOrigin=0,0,0\nNormal=0,0,0",
-                "line 4: Normal has the length 0",
-            ),
+            ("[Model0]\nShape=plane\nOrigin=0,0,0\nNormal=0,0,0", "line 4: Normal has no length"),
             (
                 "[Model0]\nShape=sphere\nCenter=0,0,0\nRadius=1\nMin=0,0,0",
                 "line 5: Min is for a box, and [Model0] is none",
@@ -405,7 +435,7 @@ mod tests {
             ),
             (
                 "[Material m]\nTexture=bitmap\nBitmap=Cargo.toml\nU=0,0,0",
-                "line 4: U has the length 0, expected a direction",
+                "line 4: U has no length, expected a direction",
             ),
             (
                 "[Material m]\nTexture=bitmap\nBitmap=Cargo.toml\nU=0,0,2\nV=0,0,-1",
@@ -416,6 +446,17 @@ mod tests {
                 "line 3: Reflectivity and Transparency are 1.1 together, expected up to 1",
             ),
             ("[Material m]\nGrain=x", "line 2: Grain is for a texture of wood"),
+            ("[Board]\nLight=c\n[Material c]\nTexture=chequer", "line 2: Light `c` is a chequer"),
+            ("[Material none]\n", "line 1: a material cannot be named none"),
+            (
+                "[Material a]\n[Material  A]\n",
+                "line 2: the section [Material  A] stands here a second",
+            ),
+            ("[Light4294967295]\nPosition=0,1,0\nColor=1,1,1", "expected numbers below 100"),
+            (
+                "[Light5]\nPosition=0,1,0\nColor=1,1,1",
+                "line 1: there is a [Light5], but no [Light0]",
+            ),
             ("[Clock]\nWhite=61:00", "line 2: White is `61:00`, expected a time"),
             (
                 "[Camera]\nXyzzy=0",
@@ -453,6 +494,12 @@ mod tests {
         let lines: Vec<usize> =
             Config::parse(text).unwrap_err().faults.iter().map(|fault| fault.line).collect();
         assert_eq!(lines, [2, 4, 5]);
+    }
+
+    #[test]
+    fn what_follows_from_a_fault_is_no_fault() {
+        let cone = "[Model0]\nShape=cone\nMin=0,0,0\nMax=1,1,1";
+        assert_eq!(Config::parse(cone).unwrap_err().faults.len(), 1);
     }
 
     #[test]

@@ -23,6 +23,11 @@ impl Bounds {
         self.min.is_finite() && self.max.is_finite()
     }
 
+    /// Whether `point` lies inside or on a face.
+    pub fn hold(&self, point: DVec3) -> bool {
+        point.cmpge(self.min).all() && point.cmple(self.max).all()
+    }
+
     /// The smallest box that holds all `points`.
     pub fn of(points: impl IntoIterator<Item = DVec3>) -> Bounds {
         points.into_iter().fold(Bounds::EMPTY, |bounds, point| Bounds {

@@ -122,7 +122,8 @@ fn subdivided(points: &[ControlPoint], steps: u32, is_closed: bool) -> Vec<Contr
     };
     points.dedup_by(repeats);
     while is_closed && points.len() > 1 && points[0].at == points[points.len() - 1].at {
-        points.pop();
+        let corner = points.pop().is_some_and(|point| point.corner);
+        points[0].corner |= corner;
     }
     points
 }
@@ -172,8 +173,8 @@ fn checked(
         .into_iter()
         .filter(|segment| is_closed || segment.from.x > 0.0 || segment.to.x > 0.0)
         .collect();
-    if let Some((first, _)) = crossing(&segments, is_closed) {
-        return Err(CurveError::CrossesItself(segments[first].to));
+    if let Some(place) = crossing(&segments) {
+        return Err(CurveError::CrossesItself(place));
     }
     if signed_area(&points) == 0.0 {
         return Err(CurveError::NoBody);

@@ -8,7 +8,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::polygon::{Normals, Segment};
+use super::polygon::{Normals, Segment, surround};
 use super::{Bounds, CurveError, Hit, Interval, Profile, Ray, Shape, Solid, Span, Spans};
 
 /// A profile turned about the y axis; its heights are y.
@@ -222,7 +222,11 @@ fn hit(ray: &Ray, t: f64, segment: &Segment) -> Hit {
     let point = ray.at(t);
     let u = (point.x * point.x + point.z * point.z).sqrt();
     let turned = |normal: DVec2| {
-        let radial = if u > 0.0 { normal.x / u } else { 0.0 };
+        if u == 0.0 {
+            // On the axis the normals from all round it have it as their middle.
+            return DVec3::Y * normal.y.signum();
+        }
+        let radial = normal.x / u;
         DVec3::new(radial * point.x, normal.y, radial * point.z)
     };
     let flat = Hit::new(t, turned(segment.normal));
@@ -243,14 +247,8 @@ impl Solid for Lathe {
     }
 
     fn contains(&self, point: DVec3) -> bool {
-        let (u, v) = ((point.x * point.x + point.z * point.z).sqrt(), point.y);
-        // Segments passed on the way outwards from the point: an odd number when inside.
-        let passed = self.segments.iter().filter(|segment| {
-            let (from, to) = (segment.from, segment.to);
-            (from.y <= v) != (to.y <= v)
-                && from.x + (v - from.y) / (to.y - from.y) * (to.x - from.x) > u
-        });
-        passed.count() % 2 == 1
+        let u = (point.x * point.x + point.z * point.z).sqrt();
+        surround(&self.segments, DVec2::new(u, point.y))
     }
 
     fn spans(&self, ray: &Ray, spans: &mut Spans) {

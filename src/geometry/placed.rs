@@ -69,7 +69,7 @@ impl Solid for Placed {
     }
 
     fn contains(&self, point: DVec3) -> bool {
-        self.solid.contains(self.own_point(point))
+        self.bounds.hold(point) && self.solid.contains(self.own_point(point))
     }
 
     fn spans(&self, ray: &Ray, spans: &mut Spans) {

@@ -64,9 +64,21 @@ impl Segment {
     }
 }
 
-/// The first two segments that meet elsewhere than at the joint of neighbours; in a closed chain
-/// the last one and the first are neighbours too.
-pub fn crossing(segments: &[Segment], is_closed: bool) -> Option<(usize, usize)> {
+/// Whether `point` lies within the closed chain of `segments`. (What an open one lacks may only be
+/// on the left of every point that is asked for.)
+pub fn surround(segments: &[Segment], point: DVec2) -> bool {
+    // Segments passed on the way to the right: an odd number when inside.
+    let passed = segments.iter().filter(|segment| {
+        let (from, to) = (segment.from, segment.to);
+        (from.y <= point.y) != (to.y <= point.y)
+            && from.x + (point.y - from.y) / (to.y - from.y) * (to.x - from.x) > point.x
+    });
+    passed.count() % 2 == 1
+}
+
+/// A place where two segments meet elsewhere than at the end of one that is the beginning of the
+/// next.
+pub fn crossing(segments: &[Segment]) -> Option<DVec2> {
     let count = segments.len();
     // Sorted by their left ends, only those that overlap from left to right are compared.
     let left = |index: usize| segments[index].from.x.min(segments[index].to.x);
@@ -77,16 +89,17 @@ pub fn crossing(segments: &[Segment], is_closed: bool) -> Option<(usize, usize)>
     for &index in &order {
         open.retain(|other| right(*other) >= left(index));
         for &other in &open {
-            let (first, second) = (index.min(other), index.max(other));
-            let joined = first + 1 == second;
-            let closing = is_closed && first == 0 && second == count - 1;
-            let meets = match (joined, closing) {
-                (true, _) => folds_back(&segments[first], &segments[second]),
-                (_, true) => folds_back(&segments[second], &segments[first]),
-                _ => touches(&segments[first], &segments[second]),
+            let (first, second) = (&segments[index.min(other)], &segments[index.max(other)]);
+            let follows = |a: usize, b: usize| (a + 1) % count == b;
+            let meets = if follows(index, other) && segments[index].to == segments[other].from {
+                folds_back(&segments[index], &segments[other])
+            } else if follows(other, index) && segments[other].to == segments[index].from {
+                folds_back(&segments[other], &segments[index])
+            } else {
+                touches(first, second)
             };
             if meets {
-                return Some((first, second));
+                return Some(first.to);
             }
         }
         open.push(index);

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 use smallvec::SmallVec;
 
-use super::polygon::{Normals, Segment};
+use super::polygon::{Normals, Segment, surround};
 use super::{Bounds, CurveError, Hit, Outline, Ray, Shape, Solid, Span, Spans};
 
 /// What lies within an outline from one height along z to another.
@@ -17,7 +17,8 @@ impl Prism {
     /// may be the greater.
     ///
     /// # Errors
-    /// When the subdivided outline bounds nothing or meets itself, or the heights are the same.
+    /// When the subdivided outline bounds nothing or meets itself, or the heights are the same or not
+    /// finite.
     pub fn new(
         outline: &Outline,
         subdivisions: u32,
@@ -26,7 +27,7 @@ impl Prism {
         front: f64,
     ) -> Result<Prism, CurveError> {
         let segments = outline.segments(subdivisions, normals)?;
-        if back == front {
+        if back == front || !back.is_finite() || !front.is_finite() {
             return Err(CurveError::NoBody);
         }
         let corners = segments.iter().flat_map(|segment| {
@@ -43,18 +44,20 @@ impl Prism {
 
     /// The hits of the endless prism's walls by the line of `ray`, in ascending order and even in
     /// number: each vertex lies on one side of the line, and a wall is crossed where its ends
-    /// lie on different ones.
+    /// lie on different ones. How far they lie off the line says where; so no hit lies off its
+    /// wall, not even when the ray runs within it.
     fn walls(&self, ray: &Ray) -> SmallVec<[Hit; 8]> {
         let (origin, direction) = (ray.origin.truncate(), ray.direction.truncate());
-        let is_left = |point: DVec2| direction.perp_dot(point - origin) > 0.0;
+        let off = |point: DVec2| direction.perp_dot(point - origin);
         let mut hits: SmallVec<[Hit; 8]> = SmallVec::new();
         for segment in &self.segments {
-            if is_left(segment.from) == is_left(segment.to) {
+            let (from, to) = (off(segment.from), off(segment.to));
+            if (from > 0.0) == (to > 0.0) {
                 continue;
             }
-            let along = segment.to - segment.from;
-            let t = (segment.from - origin).perp_dot(along) / direction.perp_dot(along);
-            let share = segment.share(origin + direction * t);
+            let share = from / (from - to);
+            let point = segment.from.lerp(segment.to, share);
+            let t = (point - origin).dot(direction) / direction.length_squared();
             hits.push(Hit {
                 t,
                 normal: segment.normal.extend(0.0),
@@ -76,14 +79,9 @@ impl Solid for Prism {
     }
 
     fn contains(&self, point: DVec3) -> bool {
-        let (x, y) = (point.x, point.y);
-        // Walls passed on the way along x: an odd number when inside.
-        let passed = self.segments.iter().filter(|segment| {
-            let (from, to) = (segment.from, segment.to);
-            (from.y <= y) != (to.y <= y)
-                && from.x + (y - from.y) / (to.y - from.y) * (to.x - from.x) > x
-        });
-        self.bounds.min.z < point.z && point.z < self.bounds.max.z && passed.count() % 2 == 1
+        self.bounds.min.z < point.z
+            && point.z < self.bounds.max.z
+            && surround(&self.segments, point.truncate())
     }
 
     fn spans(&self, ray: &Ray, spans: &mut Spans) {

@@ -47,7 +47,7 @@ pub fn export(
     }
     prepare_file(&job.output)?;
     for (name, bitmap) in &written.bitmaps {
-        write_png(&job.output.with_file_name(name), &bitmap.picture(), &[])?;
+        write_png(&job.output.with_file_name(name), bitmap.picture(), &[])?;
     }
     write_text(&job.output, &written.text)?;
     progress.say(&format!(

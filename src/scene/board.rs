@@ -1,13 +1,11 @@
 //! The chessboard: a chequered slab on a base, and the table that it may lie on.
 
-use std::sync::Arc;
-
-use glam::{DAffine3, DVec2, DVec3};
+use glam::{DVec2, DVec3};
 
 use super::material::{MaterialError, Materials};
 use super::{Object, Surface};
 use crate::config::Board;
-use crate::geometry::{Cuboid, Placed, Plane, Solid};
+use crate::geometry::{Cuboid, Plane};
 
 /// Width of a square in world units.
 pub const SQUARE: f64 = 4.0;
@@ -37,19 +35,14 @@ pub fn board(board: &Board, materials: &Materials) -> Result<Vec<Object>, Materi
         materials: [materials.material(&board.dark)?, materials.material(&board.light)?],
     };
     let mut objects = vec![
-        standing(block(HALF - RIM, -2.0 * STEP, 0.0), squares),
-        standing(block(HALF + FRAME, -DEPTH, -STEP), materials.surface(&board.frame)?),
+        Object::standing(block(HALF - RIM, -2.0 * STEP, 0.0), squares),
+        Object::standing(block(HALF + FRAME, -DEPTH, -STEP), materials.surface(&board.frame)?),
     ];
     if let Some(table) = &board.table {
         let plane = Plane::new(DVec3::Y * -DEPTH, DVec3::Y);
-        objects.push(standing(plane, materials.surface(table)?));
+        objects.push(Object::standing(plane, materials.surface(table)?));
     }
     Ok(objects)
-}
-
-/// A body where it was made.
-pub fn standing(solid: impl Solid + 'static, surface: Surface) -> Object {
-    Object { body: Placed::new(Arc::new(solid), DAffine3::IDENTITY), surface }
 }
 
 /// A flat square block round the board's middle.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 use image::RgbImage;
 
-use super::board::{DEPTH, MIDDLE, standing};
+use super::board::{DEPTH, MIDDLE};
 use super::material::{MaterialError, Materials};
 use super::{Mapping, Material, Object, Surface, Texture};
 use crate::assets::Bitmap;
@@ -48,19 +48,21 @@ pub fn clock(clock: &Clock, materials: &Materials) -> Result<[Object; 2], Materi
     };
     let size = plate.max - plate.min;
     // From in front of it, looking along −x, z lies to the right.
+    let filter = materials.config.render.filter;
+    let face = face(size.z, size.y, [clock.white, clock.black]);
     let texture = Texture::Bitmap {
-        bitmap: Arc::new(Bitmap::new(&face(size.z, size.y, [clock.white, clock.black]))),
+        bitmap: Arc::new(Bitmap::new(face, filter)),
         mapping: Mapping {
             kind: config::Mapping::Planar,
             origin: plate.min,
             u: DVec3::Z * size.z,
             v: DVec3::Y * size.y,
         },
-        filter: materials.config.render.filter,
+        filter,
     };
     Ok([
-        standing(CASE, materials.surface(&clock.case)?),
-        standing(plate, Surface::Uniform(Material { finish, texture })),
+        Object::standing(CASE, materials.surface(&clock.case)?),
+        Object::standing(plate, Surface::Uniform(Material { finish, texture })),
     ])
 }
 

@@ -21,7 +21,11 @@ pub use stage::Stage;
 pub use texture::{Noise, Texture};
 
 use crate::config::Light;
-use crate::geometry::Placed;
+use std::sync::Arc;
+
+use glam::{DAffine3, DVec3};
+
+use crate::geometry::{Placed, Solid};
 
 /// A solid in its place, with what it is made of.
 #[derive(Clone)]
@@ -29,6 +33,24 @@ pub struct Object {
     pub body: Placed,
     pub surface: Surface,
 }
+
+impl Object {
+    /// A body where it was made.
+    pub fn standing(solid: impl Solid + 'static, surface: Surface) -> Object {
+        Object { body: Placed::new(Arc::new(solid), DAffine3::IDENTITY), surface }
+    }
+
+    /// The material at a `point` of the surface with the outward `normal`, and the point in the
+    /// body's own space. Both are those a hair below it: a flat face may be the very border
+    /// between two squares or two pictures, where rounding would choose.
+    pub fn material(&self, point: DVec3, normal: DVec3) -> (&Material, DVec3) {
+        let own_point = self.body.own_point(point - normal * HAIR);
+        (self.surface.material(own_point), own_point)
+    }
+}
+
+/// In world units.
+const HAIR: f64 = 1e-6;
 
 /// Everything that a picture depends on, but its size and sampling.
 #[derive(Clone)]

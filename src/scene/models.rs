@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use super::Object;
-use super::board::standing;
 use super::material::{MaterialError, Materials};
 use crate::config::{Model, Shape};
 use crate::geometry::transform::{rotation_x, rotation_y, rotation_z, translation};
@@ -13,8 +12,10 @@ use crate::geometry::{Cuboid, Placed, Plane, Sphere};
 pub fn model(model: &Model, materials: &Materials) -> Result<Object, MaterialError> {
     let surface = materials.surface(&model.material)?;
     Ok(match model.shape {
-        Shape::Plane => standing(Plane::new(model.origin, model.normal), surface),
-        Shape::Sphere => standing(Sphere { center: model.center, radius: model.radius }, surface),
+        Shape::Plane => Object::standing(Plane::new(model.origin, model.normal), surface),
+        Shape::Sphere => {
+            Object::standing(Sphere { center: model.center, radius: model.radius }, surface)
+        }
         Shape::Box => {
             let turn = rotation_z(model.rotation.z)
                 * rotation_y(model.rotation.y)

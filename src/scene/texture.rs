@@ -7,8 +7,8 @@ use glam::{DVec3, Vec3Swizzles};
 
 use super::noise::fractal;
 use super::{Mapping, Rgb};
-use crate::assets::Bitmap;
-use crate::config::{Axis, Filter};
+use crate::assets::{Beyond, Bitmap};
+use crate::config::{self, Axis, Filter};
 
 /// The colour at each point of a body, in the body's own space.
 #[derive(Clone, Debug)]
@@ -60,7 +60,11 @@ impl Texture {
             Texture::Bitmap { bitmap, mapping, filter } => {
                 let (place, scale) = mapping.place(point);
                 let texels = (scale * bitmap.size()).max_element() * seen;
-                bitmap.color(place, *filter, texels)
+                let beyond = match mapping.kind {
+                    config::Mapping::Spherical => Beyond::Stays,
+                    config::Mapping::Planar | config::Mapping::Cylindrical => Beyond::Repeats,
+                };
+                bitmap.color(place, *filter, beyond, texels)
             }
         }
     }

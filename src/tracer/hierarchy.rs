@@ -13,6 +13,10 @@ pub struct Hierarchy<'a> {
     endless: Vec<usize>,
 }
 
+/// Surfaces of two bodies that are no farther apart along a ray than this, in world units, touch:
+/// which of them a ray meets first is not for rounding to say.
+const CONTACT: f64 = 1e-6;
+
 /// Children follow their parent: the first one at once, the second at `second`.
 struct Node {
     bounds: Bounds,
@@ -39,11 +43,19 @@ impl<'a> Hierarchy<'a> {
     /// The nearest object in front of `ray` up to `distance`, and where the ray meets it.
     pub fn nearest(&self, ray: &Ray, distance: f64) -> Option<(usize, Hit)> {
         let mut range = Interval::up_to(distance);
-        let mut found = None;
+        let mut found: Option<(usize, Hit)> = None;
+        // Of bodies in contact what is opaque is seen, and of others of a kind the first.
+        let rank = |index: usize| (self.objects[index].surface.is_transparent(), index);
         self.visit(ray, &mut range, |index, range| {
             if let Some(hit) = self.objects[index].body.nearest(ray, *range) {
-                range.max = hit.t;
-                found = Some((index, hit));
+                let is_seen = found.is_none_or(|(other, best)| {
+                    let apart = hit.t - best.t;
+                    apart < -CONTACT || apart <= CONTACT && rank(index) < rank(other)
+                });
+                if is_seen {
+                    found = Some((index, hit));
+                    range.max = range.max.min(hit.t + CONTACT);
+                }
             }
             false
         });
@@ -103,12 +115,9 @@ impl<'a> Hierarchy<'a> {
 fn transmission(object: &Object, ray: &Ray, range: Interval) -> f64 {
     let mut spans = Spans::new();
     object.body.spans(ray, &mut spans);
-    let ends = spans.iter().flat_map(|span| [span.enter.t, span.exit.t]);
-    let share = |t| {
-        let point = object.body.own_point(ray.at(t));
-        object.surface.material(point).finish.transparency
-    };
-    ends.filter(|t| range.holds(*t)).map(share).product()
+    let ends = spans.iter().flat_map(|span| [span.enter, span.exit]);
+    let share = |hit: Hit| object.material(ray.at(hit.t), hit.normal).0.finish.transparency;
+    ends.filter(|hit| range.holds(hit.t)).map(share).product()
 }
 
 fn build(objects: &[Object], order: &mut [usize], nodes: &mut Vec<Node>) {

@@ -12,12 +12,15 @@ use crate::scene::{Rgb, Scene};
 /// to meet the surface itself, too little to miss what touches it.
 const OFFSET: f64 = 1e-4;
 
+/// How often a ray may go straight through a surface before each further time counts as refraction.
+const MAX_PASSES: u32 = 100;
+
 /// A scene with what is needed to trace rays through it.
 pub struct Tracer<'a> {
     scene: &'a Scene,
     hierarchy: Hierarchy<'a>,
-    /// The transparent bodies that the camera stands in.
-    camera_within: u32,
+    /// Which objects are transparent.
+    transparent: Vec<usize>,
 }
 
 /// A ray on its way.
@@ -25,12 +28,14 @@ struct Flight {
     ray: Ray,
     /// How often it was reflected or refracted.
     depth: u32,
+    /// How often it went straight through a surface: between bodies of glass that touch or overlap.
+    passes: u32,
     /// How far it has come from the camera.
     length: f64,
     /// Its share of the pixel's colour.
     weight: f64,
-    /// How many transparent bodies it is in.
-    within: u32,
+    /// The refractive index of what it is in.
+    index: f64,
 }
 
 /// What is found on the way.
@@ -43,13 +48,11 @@ struct Walk<'a> {
 
 impl<'a> Tracer<'a> {
     pub fn new(scene: &'a Scene) -> Tracer<'a> {
-        let holds_camera = |object: &&crate::scene::Object| {
-            object.surface.is_transparent() && object.body.contains(scene.camera.position())
-        };
+        let is_transparent = |index: &usize| scene.objects[*index].surface.is_transparent();
         Tracer {
             scene,
             hierarchy: Hierarchy::new(&scene.objects),
-            camera_within: scene.objects.iter().filter(holds_camera).count() as u32,
+            transparent: (0..scene.objects.len()).filter(is_transparent).collect(),
         }
     }
 
@@ -58,10 +61,17 @@ impl<'a> Tracer<'a> {
     pub fn trace(&self, ray: Ray, spread: f64, counts: &mut RayCounts) -> Sample {
         counts.primary += 1;
         let mut walk = Walk { counts, footprint: Footprint::default(), spread };
-        let within = self.camera_within;
-        let flight = Flight { ray, depth: 0, length: 0.0, weight: 1.0, within };
+        let index = self.index_at(ray.origin);
+        let flight = Flight { ray, depth: 0, passes: 0, length: 0.0, weight: 1.0, index };
         let color = self.radiance(&flight, &mut walk);
         Sample { color, footprint: walk.footprint }
+    }
+
+    /// The refractive index at `point`: that of all that is transparent, where it lies inside any of
+    /// it (Turek 2008, 4.2).
+    fn index_at(&self, point: DVec3) -> f64 {
+        let holds = |index: &usize| self.scene.objects[*index].body.contains(point);
+        if self.transparent.iter().any(holds) { self.scene.snell_index } else { 1.0 }
     }
 
     fn radiance(&self, flight: &Flight, walk: &mut Walk) -> Rgb {
@@ -73,13 +83,11 @@ impl<'a> Tracer<'a> {
         let object = &self.scene.objects[index];
         let point = ray.at(hit.t);
         let length = flight.length + hit.t;
-        let is_inside = ray.direction.dot(hit.normal) > 0.0;
         let (outward, normal) = facing(hit, ray.direction);
         let leaving = point + outward * OFFSET;
         let mirrored = mirrored(ray.direction, normal, outward);
 
-        let own_point = object.body.own_point(point);
-        let material = object.surface.material(own_point);
+        let (material, own_point) = object.material(point, hit.normal);
         let finish = &material.finish;
         let color = material.texture.color(own_point, length * walk.spread);
 
@@ -109,38 +117,47 @@ impl<'a> Tracer<'a> {
         if flight.depth >= self.scene.max_depth {
             return sum;
         }
-        let is_seen = |share: f64| share > 0.0 && flight.weight * share >= self.scene.min_weight;
-        let on = |ray: Ray, share: f64, within: u32| Flight {
+        let on = |ray: Ray, share: f64, index: f64| Flight {
             ray,
             depth: flight.depth + 1,
+            passes: flight.passes,
             length,
             weight: flight.weight * share,
-            within,
+            index,
         };
         let mut mirror = finish.reflectivity;
         if finish.transparency > 0.0 {
-            let behind =
-                if is_inside { flight.within.saturating_sub(1) } else { flight.within + 1 };
-            let index = |within: u32| if within > 0 { self.scene.snell_index } else { 1.0 };
-            let ratio = index(flight.within) / index(behind);
-            match refracted(ray.direction, normal, ratio) {
-                Some(direction) if is_seen(finish.transparency) => {
-                    walk.counts.refracted += 1;
-                    let ray = Ray { origin: point - outward * OFFSET, direction };
-                    let flight = on(ray, finish.transparency, behind);
-                    sum += self.radiance(&flight, walk) * finish.transparency;
+            let behind = point - outward * OFFSET;
+            let index = self.index_at(behind);
+            match refracted(ray.direction, normal, flight.index / index) {
+                Some(direction) => {
+                    let ray = Ray { origin: behind, direction };
+                    let mut next = on(ray, finish.transparency, index);
+                    // What does not bend does not count, as long as there is an end to it.
+                    if index == flight.index && flight.passes < MAX_PASSES {
+                        next.depth = flight.depth;
+                        next.passes += 1;
+                    }
+                    if self.is_followed(&next) {
+                        walk.counts.refracted += 1;
+                        sum += self.radiance(&next, walk) * finish.transparency;
+                    }
                 }
-                Some(_) => {}
                 // The reflection is total: all that comes this way is thrown back.
                 None => mirror = 1.0,
             }
         }
-        if is_seen(mirror) {
+        let next = on(Ray { origin: leaving, direction: mirrored }, mirror, flight.index);
+        if self.is_followed(&next) {
             walk.counts.reflected += 1;
-            let ray = Ray { origin: leaving, direction: mirrored };
-            sum += self.radiance(&on(ray, mirror, flight.within), walk) * mirror;
+            sum += self.radiance(&next, walk) * mirror;
         }
         sum
+    }
+
+    /// Whether a ray is worth its while.
+    fn is_followed(&self, flight: &Flight) -> bool {
+        flight.weight > 0.0 && flight.weight >= self.scene.min_weight
     }
 }
 
