@@ -142,6 +142,35 @@ fn rays_on_an_axis_meet_what_lies_on_it() {
     }
 }
 
+/// A ray within the plane of a wall meets the prism where the prism is, and nowhere else.
+#[test]
+fn rays_within_a_wall_of_a_prism_stay_on_it() {
+    let corner = |x, y| ControlPoint { at: DVec2::new(x, y), corner: true };
+    let leaf = [(-2.0, 0.2), (0.1, -1.0), (2.5, 0.3), (1.0, 1.5), (1.2, 4.0), (-1.0, 3.0)];
+    let outline = Outline::new(leaf.map(|(x, y)| corner(x, y)).to_vec()).unwrap();
+    let prism = Prism::new(&outline, 2, Normals::Flat, -1.0, 1.0).unwrap();
+    let mut met = 0;
+    for (index, segment) in prism.segments().iter().enumerate() {
+        for step in 0..500 {
+            let along = (segment.to - segment.from).normalize();
+            let before = segment.from - along * (1.0 + 0.013 * f64::from(step));
+            let ray = Ray {
+                origin: before.extend(-3.0),
+                direction: along.extend(0.002 * f64::from(step)).normalize(),
+            };
+            let mut spans = Spans::new();
+            prism.spans(&ray, &mut spans);
+            met += spans.len();
+            for end in spans.iter().flat_map(|span| [span.enter, span.exit]) {
+                let point = ray.at(end.t);
+                let (low, high) = (prism.bounds().min - 1e-9, prism.bounds().max + 1e-9);
+                assert!(point.cmpge(low).all() && point.cmple(high).all(), "{index}: {point}");
+            }
+        }
+    }
+    assert!(met > 0);
+}
+
 #[test]
 fn a_plane_is_the_skin_of_half_of_space() {
     let plane = Plane::new(DVec3::Y * 2.0, DVec3::Y * 5.0);

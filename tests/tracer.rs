@@ -210,6 +210,99 @@ fn a_plane_has_no_end_but_sight_may() {
     assert_color(middle(&scene).0, [0.0, 0.0, 0.4]);
 }
 
+/// Glass on the floor is in contact with it: the floor is seen, whichever of the two surfaces
+/// rounding finds first, and no light is lost between them.
+#[test]
+fn glass_in_contact_shows_what_it_stands_on() {
+    let block =
+        |x: f64| Cuboid { min: DVec3::new(x - 5.0, 0.0, -5.0), max: DVec3::new(x + 5.0, 2.0, 5.0) };
+    for order in [[0, 1], [1, 0]] {
+        let objects = [matte(floor(), DVec3::X), made_of(block(0.0), CLEAR, WHITE)];
+        let mut scene = from_above(order.map(|index| objects[index].clone()).to_vec());
+        scene.lights.clear();
+        let (picture, rays) = render(&scene, 31, 31, Antialiasing::None);
+        assert!(picture.pixels().all(|pixel| pixel.0 == [51, 0, 0]), "{order:?}");
+        // In at the top; below there is no way out.
+        assert_eq!(rays.refracted, rays.primary);
+    }
+    // Two blocks side by side are one.
+    let pair = [made_of(block(-5.0), CLEAR, WHITE), made_of(block(5.0), CLEAR, WHITE)];
+    let whole = Cuboid { min: DVec3::new(-10.0, 0.0, -5.0), max: DVec3::new(10.0, 2.0, 5.0) };
+    let mut scene = from_above([&pair[..], &[matte(floor(), DVec3::X)]].concat());
+    let two = render(&scene, 31, 31, Antialiasing::None).0;
+    scene.objects = vec![made_of(whole, CLEAR, WHITE), matte(floor(), DVec3::X)];
+    assert_eq!(render(&scene, 31, 31, Antialiasing::None).0, two);
+}
+
+/// The walls of a glass block are mirrors from within, beyond the critical angle, whatever shares
+/// its material has.
+#[test]
+fn total_reflection_throws_everything_back() {
+    let faint = Finish { reflectivity: 0.1, transparency: 0.5, ..CLEAR };
+    let around = Cuboid { min: DVec3::new(-9.0, 0.0, -9.0), max: DVec3::new(9.0, 40.0, 9.0) };
+    // A red ball at the camera's feet, seen only by way of the wall.
+    let mut scene = from_above(vec![
+        made_of(around, faint, WHITE),
+        made_of(ball(DVec3::new(0.0, 4.0, 0.0), 2.0), Finish { ambient: 1.0, ..MATTE }, DVec3::X),
+    ]);
+    scene.lights.clear();
+    scene.camera = Camera::new(&config::Camera {
+        position: DVec3::new(0.0, 23.0, 0.0),
+        look_at: DVec3::new(9.0, 13.5, 0.0),
+        fov: 4.0,
+        z_rot: 0.0,
+    });
+    assert_color(middle(&scene).0, [1.0, 0.0, 0.0]);
+}
+
+/// Squares and pictures may end exactly at a face.
+#[test]
+fn a_face_on_the_border_of_two_squares_has_the_color_inside() {
+    let mut block =
+        matte(Cuboid { min: DVec3::new(-4.0, 0.0, -4.0), max: DVec3::new(0.0, 4.0, 0.0) }, WHITE);
+    let squares = |color| Material { finish: MATTE, texture: Texture::Plain(color) };
+    block.surface = Surface::Chequer {
+        origin: DVec2::ZERO,
+        side: 4.0,
+        materials: [squares(DVec3::X), squares(DVec3::Z)],
+    };
+    let mut scene = from_above(vec![block]);
+    scene.lights.clear();
+    scene.background = DVec3::Y;
+    // The sides at x = 0 and z = 0 seen at a slant.
+    scene.camera = Camera::new(&config::Camera {
+        position: DVec3::new(11.3, 5.7, 13.1),
+        look_at: DVec3::new(-1.0, 2.0, -1.0),
+        fov: 40.0,
+        z_rot: 0.0,
+    });
+    let (picture, _) = render(&scene, 60, 60, Antialiasing::None);
+    let colors: std::collections::BTreeSet<[u8; 3]> = picture.pixels().map(|p| p.0).collect();
+    assert_eq!(colors.into_iter().collect::<Vec<_>>(), [[0, 255, 0], [51, 0, 0]]);
+}
+
+#[test]
+fn half_transparent_squares_shade_by_halves() {
+    let glass = Finish { transparency: 0.5, ..CLEAR };
+    let squares = |finish| Material { finish, texture: Texture::Plain(WHITE) };
+    let mut screen = matte(pane(), WHITE);
+    screen.surface = Surface::Chequer {
+        origin: DVec2::splat(-25.0),
+        side: 25.0,
+        materials: [squares(MATTE), squares(glass)],
+    };
+    // Above the camera, between the floor and the light.
+    screen.body = Placed::new(Arc::new(pane()), DAffine3::from_translation(DVec3::Y * 20.0));
+    let scene = from_above(vec![matte(floor(), WHITE), screen]);
+    let (picture, _) = render(&scene, 2, 2, Antialiasing::None);
+    let found: Vec<u8> = picture.pixels().map(|pixel| pixel.0[0]).collect();
+    // Through both faces a quarter of the light comes; through the opaque squares none.
+    let [dark, half] = [51, ((0.2 + 0.5 * 0.25 * 0.998) * 255.0_f64).round() as u8];
+    let mut sorted = found.clone();
+    sorted.sort_unstable();
+    assert!(sorted[..2] == [dark; 2] && sorted[2].abs_diff(half) <= 1, "{found:?}");
+}
+
 /// A picture with edges of bodies, shadows and squares.
 fn busy() -> Scene {
     let squares = |color| Material { finish: MATTE, texture: Texture::Plain(color) };

@@ -10,6 +10,8 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use serde::Serialize;
+
 use crate::config::{self, Config};
 use crate::geometry::{Csg, CurveError, Normals};
 
@@ -25,7 +27,8 @@ pub struct PieceSet {
 }
 
 /// Which set of chessmen.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum SetName {
     /// The thesis's: plain turnings, a cross, a knight cut out of a box.
     #[default]

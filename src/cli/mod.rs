@@ -139,8 +139,8 @@ Examples:
   lightsquare export --format pov games/opera-1858.pgn --at 17w -o scene.pov
   povray +Iscene.pov +W1000 +H600 -A
 
-The thesis's picture of the same position: lightsquare diagram --aa none with the same options.
---plain makes both the same to a hair; without it POV-Ray has wood and marble of its own.";
+lightsquare's own picture of it: lightsquare diagram --aa none with the same options. With --plain
+both agree but for single pixels at edges; without it POV-Ray has wood and marble of its own.";
 
 const BENCH_EXAMPLES: &str = "\
 Examples:
@@ -319,6 +319,11 @@ impl DiagramArgs {
 impl ExportArgs {
     pub fn into_job(self) -> anyhow::Result<ExportJob> {
         let ExportFormat::Pov = self.format;
+        let is_scene = self.output.extension().is_some_and(|e| e.eq_ignore_ascii_case("pov"));
+        if self.output != Path::new("-") && !is_scene {
+            let name = self.output.display();
+            bail!(UsageError(format!("--output: expected a .pov file, found `{name}`")));
+        }
         let picture = self.picture.settings()?;
         Ok(ExportJob { subject: self.subject.into_subject()?, output: self.output, picture })
     }

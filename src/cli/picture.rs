@@ -22,7 +22,7 @@ pub struct PictureArgs {
     size: Option<(u32, u32)>,
     /// Antialiasing: none (0), a grid of rays in each pixel (1), or in those pixels that differ
     /// from their neighbours (2) [default: grid]
-    #[arg(long, value_name = "MODE")]
+    #[arg(long, value_name = "MODE", ignore_case = true)]
     aa: Option<AntialiasingMode>,
     /// Rays along one side of a pixel's grid, from 1 to 32 [default: 2]
     #[arg(long, value_name = "N", value_parser = rays)]

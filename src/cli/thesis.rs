@@ -119,6 +119,9 @@ fn read(arguments: &[String]) -> Result<Given, String> {
             return Err(format!("{name} is given a second time"));
         }
         seen.push(name);
+        if value.is_empty() && !name.ends_with("player") {
+            return Err(format!("{name} is empty, expected\n  {USAGE}"));
+        }
         set(&mut given, value).map_err(|expected| format!("{name} is `{value}`, {expected}"))?;
     }
     Ok(given)

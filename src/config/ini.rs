@@ -41,7 +41,9 @@ pub fn read(text: &str) -> (Vec<Section<'_>>, Vec<Fault>) {
             (_, Some(_), None) => "stands before the first [section]",
             (_, None, _) => "is neither a [section] nor a key=value",
         };
-        faults.push(Fault { line: number, message: format!("`{content}` {complaint}") });
+        let begin: String = content.chars().take(60).collect();
+        let rest = if begin.len() < content.len() { "…" } else { "" };
+        faults.push(Fault { line: number, message: format!("`{begin}{rest}` {complaint}") });
     }
     (sections, faults)
 }

@@ -1,10 +1,10 @@
 //! `[Material …]`: what bodies are made of.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use glam::DVec3;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use super::keys::{Key, key};
 use super::values::{COLOR, Choice, File, Integer, Number, PLACE};
@@ -45,6 +45,7 @@ pub struct Material {
     /// The direction that wood grows in.
     pub grain: Axis,
     /// The picture of a bitmap texture.
+    #[serde(serialize_with = "lossy")]
     pub bitmap: PathBuf,
     pub mapping: Mapping,
     /// World units: a corner of a chequer or of a bitmap's planar copy, the middle of the foot of
@@ -83,6 +84,11 @@ pub enum Axis {
     X,
     Y,
     Z,
+}
+
+/// A path as text, whatever it holds.
+fn lossy<S: Serializer>(path: &Path, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(&path.to_string_lossy())
 }
 
 const TEXTURES: Choice<Texture> = Choice(&[

@@ -188,14 +188,21 @@ pub struct ConfigError {
     pub faults: Vec<Fault>,
 }
 
+/// So many faults are told one by one.
+const TOLD: usize = 20;
+
 fn listed(faults: &[Fault]) -> String {
-    let lines: Vec<String> = faults
+    let mut lines: Vec<String> = faults
         .iter()
+        .take(TOLD)
         .map(|fault| match fault.line {
             0 => fault.message.clone(),
             line => format!("line {line}: {}", fault.message),
         })
         .collect();
+    if let Some(more) = faults.len().checked_sub(TOLD).filter(|more| *more > 0) {
+        lines.push(format!("and {more} more"));
+    }
     lines.join("\n  ")
 }
 

@@ -317,6 +317,9 @@ fn check_material(
     if material.texture != Texture::Bitmap {
         return;
     }
+    if lines.failed("Bitmap") {
+        return;
+    }
     if lines.give("Bitmap") {
         material.bitmap = folder.join(&material.bitmap);
     }
@@ -324,7 +327,8 @@ fn check_material(
         fault("Texture", format!("[{section}] has no Bitmap, expected the name of a picture"));
     } else if !material.bitmap.is_file() {
         let path = material.bitmap.display();
-        fault("Bitmap", format!("there is no picture `{path}`, expected a BMP or PNG file"));
+        let found = if material.bitmap.exists() { "is no file" } else { "is not there" };
+        fault("Bitmap", format!("the picture `{path}` {found}, expected a BMP or PNG file"));
     }
     for (key, vector) in [("U", material.u), ("V", material.v)] {
         if vector.length() < SHORTEST {
@@ -431,7 +435,7 @@ mod tests {
             ("[Material m]\nTexture=bitmap", "line 2: [Material m] has no Bitmap"),
             (
                 "[Material m]\nTexture=bitmap\nBitmap=no/such.png",
-                "line 3: there is no picture `no/such.png`, expected a BMP or PNG file",
+                "line 3: the picture `no/such.png` is not there, expected a BMP or PNG file",
             ),
             (
                 "[Material m]\nTexture=bitmap\nBitmap=Cargo.toml\nU=0,0,0",

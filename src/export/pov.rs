@@ -1,8 +1,10 @@
 //! Scenes for POV-Ray 3.7, such that it computes what the tracer computes.
 //!
 //! What differs, and is said in the file: smooth normals (its lathes and prisms of straight
-//! segments are shaded flat), a limit of the distance, and wood and marble, which become its own
-//! patterns of noise.
+//! segments are shaded flat), MIP levels (it reads bitmaps between four texels), a limit of the
+//! distance, and wood and marble, which become its own patterns of noise. It also sees nothing of
+//! a surface that touches glass from outside (it takes no hit within 0.001 of a ray's origin), and
+//! may see faces inside the union of transparent bodies where their walls lie in one plane.
 
 use std::fmt::{Display, Formatter, Write};
 use std::sync::Arc;
@@ -21,8 +23,8 @@ pub struct PovScene {
     pub bitmaps: Vec<(String, Arc<Bitmap>)>,
 }
 
-/// Writes `scene` for pictures of `width` × `height` pixels. `name` is the scene's file name
-/// without its ending; those of its pictures begin with it.
+/// Writes `scene` for pictures of `width` × `height` pixels. The file names of its bitmaps begin
+/// with `name`, which holds nothing but letters, digits and hyphens of ASCII.
 pub fn pov(scene: &Scene, width: u32, height: u32, name: &str) -> PovScene {
     let mut writer = Writer { text: String::new(), solids: Vec::new(), bitmaps: Vec::new(), name };
     writer.head(scene, width, height);
@@ -76,9 +78,9 @@ impl Writer<'_> {
         let [right, up, forward] = scene.camera.axes();
         let across = scene.camera.width();
         let tall = across * f64::from(height) / f64::from(width);
-        line!(self, "// {}, by lightsquare {}", self.name, env!("CARGO_PKG_VERSION"));
-        line!(self, "// povray +I{}.pov +W{width} +H{height} -A", self.name);
-        if scene.max_distance < config::Config::default().render.max_distance {
+        line!(self, "// By lightsquare {}, to be rendered with", env!("CARGO_PKG_VERSION"));
+        line!(self, "// povray +Iscene.pov +W{width} +H{height} -A");
+        if scene.max_distance < config::FARTHEST {
             line!(self, "// Rays that end after {} units have no end here.", scene.max_distance);
         }
         line!(self, "#version 3.7;");
@@ -155,7 +157,7 @@ impl Writer<'_> {
         let pad = "  ".repeat(depth);
         let segments = lathe.segments();
         self.say_if_smooth(segments, &pad);
-        if used != Use::Skin {
+        if used != Use::Skin || segments.len() <= RUN {
             self.lathe_run(segments, &pad);
             return;
         }
@@ -169,8 +171,9 @@ impl Writer<'_> {
     }
 
     fn lathe_run(&mut self, segments: &[Segment], pad: &str) {
-        let last = segments.last().map(|segment| segment.to);
-        let points: Vec<DVec2> = segments.iter().map(|segment| segment.from).chain(last).collect();
+        let mut points: Vec<DVec2> =
+            segments.iter().flat_map(|segment| [segment.from, segment.to]).collect();
+        points.dedup();
         line!(self, "{pad}lathe {{ linear_spline {}, {} }}", points.len(), listed(&points));
     }
 
@@ -301,6 +304,9 @@ impl Writer<'_> {
                     Filter::Nearest => "",
                     Filter::Bilinear | Filter::Mip => " interpolate 2",
                 };
+                if *filter == Filter::Mip {
+                    line!(self, "{pad}// MIP levels in lightsquare, none here.");
+                }
                 line!(self, "{pad}pigment {{");
                 line!(
                     self,

@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use super::studio::{PictureSettings, Studio};
-use super::subject::Subject;
+use super::subject::{Subject, keep_inputs};
 use super::{JobError, Progress, shown};
 use crate::output::{encode_png, prepare_file, write_picture};
 use crate::tracer::RayCounts;
@@ -36,7 +36,7 @@ pub fn diagram(
     stdout: &mut dyn Write,
 ) -> Result<DiagramSummary, JobError> {
     let shot = job.subject.read(progress)?;
-    job.subject.is_not(&job.output)?;
+    keep_inputs(&job.subject, &job.picture, &job.output)?;
     let mut studio = Studio::new(&job.picture)?;
     let to_stdout = job.output == Path::new("-");
     if !to_stdout {

@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use super::studio::{PictureSettings, stage};
-use super::subject::Subject;
+use super::subject::{Subject, keep_inputs};
 use super::{JobError, Progress, shown};
 use crate::export::pov;
 use crate::output::{prepare_file, write_png, write_text};
@@ -31,30 +31,37 @@ pub fn export(
     stdout: &mut dyn Write,
 ) -> Result<bool, JobError> {
     let shot = job.subject.read(progress)?;
-    job.subject.is_not(&job.output)?;
     let scene = stage(&job.picture)?.scene(&shot.frame);
     let config = &job.picture.config;
-    let to_stdout = job.output == Path::new("-");
-    let stem = job.output.file_stem().filter(|_| !to_stdout);
-    let name = stem.map_or("scene".into(), |stem| stem.to_string_lossy());
-    let written = pov(&scene, config.width, config.height, &name);
-    if to_stdout {
+    let stem = job.output.file_stem().map_or("scene".into(), |stem| stem.to_string_lossy());
+    // POV-Ray reads plain names alone.
+    let is_plain = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
+    let plain: String = stem.chars().map(|c| if is_plain(c) { c } else { '-' }).collect();
+    let written = pov(&scene, config.width, config.height, &plain);
+    if job.output == Path::new("-") {
         if !written.bitmaps.is_empty() {
             return Err(JobError::BitmapsOnStdout);
         }
         stdout.write_all(written.text.as_bytes()).map_err(JobError::Write)?;
         return Ok(shot.is_whole);
     }
-    prepare_file(&job.output)?;
-    for (name, bitmap) in &written.bitmaps {
-        write_png(&job.output.with_file_name(name), bitmap.picture(), &[])?;
+    let beside = |name: &str| job.output.with_file_name(name);
+    keep_inputs(&job.subject, &job.picture, &job.output)?;
+    for (name, _) in &written.bitmaps {
+        keep_inputs(&job.subject, &job.picture, &beside(name))?;
     }
+    prepare_file(&job.output)?;
+    // The scene first: where it cannot be written, nothing is left beside it.
     write_text(&job.output, &written.text)?;
-    progress.say(&format!(
-        "{} is written; povray +I{name}.pov +W{} +H{} -A makes its picture",
-        shown(&job.output),
-        config.width,
-        config.height
+    for (name, bitmap) in &written.bitmaps {
+        write_png(&beside(name), bitmap.picture(), &[])?;
+    }
+    progress.say(&format!("{} is written", shown(&job.output)));
+    let folder = job.output.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let folder = folder.map_or(String::new(), |folder| format!(" in {}", shown(folder)));
+    progress.detail(&format!(
+        "its picture{folder}: povray '+I{stem}.pov' +W{} +H{} -A",
+        config.width, config.height
     ));
     Ok(shot.is_whole)
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use image::RgbImage;
 use serde::Serialize;
 
-use super::JobError;
+use super::{JobError, shown};
 use crate::assets::{Assets, SetName};
 use crate::config::{Config, Render, Sampling};
 use crate::scene::Stage;
@@ -23,11 +23,12 @@ pub struct PictureSettings {
     pub threads: Option<usize>,
 }
 
-/// [`PictureSettings`] as they stand in a manifest, without what changes no picture.
+/// [`PictureSettings`] as they stand in a manifest, without the number of threads.
 #[derive(Serialize)]
 pub(super) struct SettingsRecord<'a> {
     version: &'static str,
-    config_file: Option<&'a PathBuf>,
+    config_file: Option<String>,
+    set: SetName,
     #[serde(flatten)]
     config: &'a Config,
 }
@@ -91,7 +92,8 @@ impl<'a> Studio<'a> {
     pub fn record(&self) -> SettingsRecord<'a> {
         SettingsRecord {
             version: env!("CARGO_PKG_VERSION"),
-            config_file: self.settings.config_file.as_ref(),
+            config_file: self.settings.config_file.as_deref().map(shown),
+            set: self.settings.set,
             config: &self.settings.config,
         }
     }

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::report::texts;
+use super::studio::PictureSettings;
 use super::{JobError, Progress, say_problems, shown};
 use crate::game::{Game, Moment, Source};
 use crate::notation::Placement;
@@ -48,19 +49,25 @@ impl Subject {
         }
         Err(JobError::NothingSelected { file: name, games })
     }
+}
 
-    /// Refuses to write over the file of the game.
-    pub(super) fn is_not(&self, output: &Path) -> Result<(), JobError> {
-        let place = |path: &Path| fs::canonicalize(path).ok();
-        match self {
-            Subject::Game { file, .. }
-                if place(file).is_some_and(|file| place(output) == Some(file)) =>
-            {
-                Err(JobError::OutputIsInput { path: output.to_owned() })
-            }
-            _ => Ok(()),
-        }
+/// Refuses to write over what is read: the game, the settings, the pictures of materials.
+pub(super) fn keep_inputs(
+    subject: &Subject,
+    settings: &PictureSettings,
+    output: &Path,
+) -> Result<(), JobError> {
+    let game = match subject {
+        Subject::Game { file, .. } => Some(file),
+        Subject::Placement { .. } => None,
+    };
+    let mut inputs = game.into_iter().chain(&settings.config_file).chain(settings.config.bitmaps());
+    let place = |path: &Path| fs::canonicalize(path).ok();
+    let target = place(output);
+    if target.is_some() && inputs.any(|input| place(input) == target) {
+        return Err(JobError::OutputIsInput { path: output.to_owned() });
     }
+    Ok(())
 }
 
 fn shot(file: String, game: &Game, at: Moment) -> Result<Shot, JobError> {

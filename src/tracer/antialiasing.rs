@@ -13,8 +13,8 @@ pub enum Antialiasing {
     /// pixels round it did (the thesis's mode 2).
     Adaptive {
         rays: u32,
-        /// How far apart two pixels may be in what they saw, 0 to 1: see
-        /// [`super::footprint::Footprint::differs`].
+        /// How far apart two pixels may be in the colour of what they saw and in the light on it,
+        /// 0 to 1; in its normal eight times as far.
         threshold: f32,
     },
 }

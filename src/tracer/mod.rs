@@ -79,8 +79,8 @@ struct Easel<'a> {
     height: u32,
 }
 
-/// How many rows adaptive antialiasing has in hand at a time: a bound for its memory.
-const BAND: usize = 64;
+/// How many rows a thread has in hand at a time in adaptive antialiasing: a bound for its memory.
+const ROWS: usize = 32;
 
 impl Easel<'_> {
     fn grid(&self, picture: &mut RgbImage, side: u32) -> RayCounts {
@@ -92,8 +92,9 @@ impl Easel<'_> {
         let mut counts = RayCounts::default();
         // The first pass over the rows from `first` on; at least those beside the band in hand.
         let (mut first, mut rows) = (0, Vec::<Vec<Sample>>::new());
-        for start in (0..height).step_by(BAND) {
-            let end = (start + BAND).min(height);
+        let band = ROWS * rayon::current_num_threads();
+        for start in (0..height).step_by(band) {
+            let end = (start + band).min(height);
             rows.drain(..start.saturating_sub(1) - first);
             first = start.saturating_sub(1);
             let (more, rays) = self.first_pass(first + rows.len()..(end + 1).min(height));

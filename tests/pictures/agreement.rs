@@ -1,6 +1,7 @@
 //! Our pictures beside those that POV-Ray makes of the same scenes, one ray through each pixel's
 //! middle. Where there is no `povray`, a word says so and nothing is compared.
 
+use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::sync::Arc;
@@ -18,8 +19,6 @@ use lightsquare::scene::{Camera, Material, Object, Scene, Surface, Texture};
 use lightsquare::tracer::{Antialiasing, render};
 
 const OPERA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/games/opera-1858.pgn");
-const WIDTH: u32 = 500;
-const HEIGHT: u32 = 300;
 
 const GLASS_BALL: &str = "\
 [GlobalSettings]
@@ -37,21 +36,38 @@ LookAt=14,4,14
 FOV=60
 ";
 
+/// Nothing bends, and the limit of depth is met.
+const CLEAR: &str = "\
+[GlobalSettings]
+BackgroundColor=0.3,0.35,0.4
+SnellIndex=1
+[Render]
+MaxDepth=2
+[Pieces]
+White=glass
+Black=smoked-glass
+[Camera]
+Position=34,16,-24
+LookAt=13,2,2
+FOV=60
+";
+
 const ABOVE: &str = "[Camera]\nPosition=14,60,14\nLookAt=14,0,14\nFOV=80\n";
 
 fn has_povray() -> bool {
     let found = Command::new("povray").arg("--version").output().is_ok();
     if !found {
-        eprintln!("skipped: there is no povray to compare with");
+        // Said past the harness, which keeps what tests print.
+        let _ = writeln!(std::io::stderr(), "skipped: there is no povray to compare with");
     }
     found
 }
 
 /// POV-Ray's picture of `folder`/scene.pov.
-fn by_povray(folder: &Path) -> RgbImage {
+fn by_povray(folder: &Path, [width, height]: [u32; 2]) -> RgbImage {
     let output = Command::new("povray")
         .args(["+Iscene.pov", "+Opov.png", "-A", "-D"])
-        .args([format!("+W{WIDTH}"), format!("+H{HEIGHT}")])
+        .args([format!("+W{width}"), format!("+H{height}")])
         .current_dir(folder)
         .stdin(Stdio::null())
         .output()
@@ -61,21 +77,33 @@ fn by_povray(folder: &Path) -> RgbImage {
     read(&folder.join("pov.png"))
 }
 
-/// 99 % of all pixels are within 2/255 in each channel, and what is beyond are edges: nowhere a
-/// block of 3 × 3.
+/// So many pixels in a thousand may differ, and only where a hair decides what is seen: POV-Ray
+/// must have seen there what we see in one of the pixels round it.
+const PER_MILLE: usize = 2;
+
 fn assert_agreement(name: &str, ours: &RgbImage, theirs: &RgbImage) {
+    let (width, height) = ours.dimensions();
     let difference = difference(ours, theirs);
-    let is_beyond = |x: usize, y: usize| difference[y * WIDTH as usize + x] > 2;
     let beyond = difference.iter().filter(|apart| **apart > 2).count();
-    let share = beyond as f64 / difference.len() as f64;
-    assert!(share <= 0.01, "{name}: {:.2} % of all pixels differ", 100.0 * share);
-    for y in 1..HEIGHT as usize - 1 {
-        for x in 1..WIDTH as usize - 1 {
-            let block = (y - 1..=y + 1).flat_map(|row| (x - 1..=x + 1).map(move |col| (col, row)));
-            let is_patch = block.into_iter().all(|(col, row)| is_beyond(col, row));
-            assert!(!is_patch, "{name}: a patch differs round ({x}, {y})");
-        }
+    assert!(
+        1000 * beyond <= PER_MILLE * difference.len(),
+        "{name}: {beyond} of {} pixels differ",
+        difference.len()
+    );
+    let mut unexplained = 0;
+    for (index, _) in difference.iter().enumerate().filter(|(_, apart)| **apart > 2) {
+        let (x, y) = (index as u32 % width, index as u32 / width);
+        let round = (y.max(1) - 1..=(y + 1).min(height - 1))
+            .flat_map(|row| (x.max(1) - 1..=(x + 1).min(width - 1)).map(move |col| (col, row)));
+        let theirs = theirs.get_pixel(x, y).0;
+        let is_between = (0..3).all(|channel| {
+            let seen = round.clone().map(|(col, row)| ours.get_pixel(col, row).0[channel]);
+            let (low, high) = seen.fold((255, 0), |(low, high), c| (c.min(low), c.max(high)));
+            (low.saturating_sub(8)..=high.saturating_add(8)).contains(&theirs[channel])
+        });
+        unexplained += usize::from(!is_between);
     }
+    assert!(unexplained <= 2 + beyond / 20, "{name}: {unexplained} of {beyond} are no edges");
 }
 
 #[test]
@@ -84,25 +112,27 @@ fn positions_look_as_povray_shows_them() {
         return;
     }
     let start = "rnbqkbnr/pppppppp/8/8/8/8/PPPPPPPP/RNBQKBNR";
-    let cases: [(&str, &[&str], &str); 6] = [
+    let cases: [(&str, &[&str], &str); 7] = [
         ("start", &["--fen", start], ""),
         ("opera, mate", &[OPERA, "--at", "17w"], ""),
         ("opera, long castling, from above", &[OPERA, "--at", "12w"], ABOVE),
+        ("clear pieces", &["--white", "DD1PE2", "--black", "SD3"], CLEAR),
         ("bitmaps", &["--white", "KD1"], MAPPED),
         ("a glass ball", &["--white", "PA1", "--black", "KE8"], GLASS_BALL),
         ("the clock", &["--white", "KE1DD1PE2", "--black", "KE8PD4"], CLOCK),
     ];
     for (name, subject, settings) in cases {
+        let size = if settings.is_empty() || settings == ABOVE { [1000, 600] } else { [500, 300] };
         let folder = tempfile::tempdir().unwrap();
         let here = folder.path();
         std::fs::write(here.join("settings.ini"), settings).unwrap();
         letter().save(here.join("letter.bmp")).unwrap();
-        let size = format!("{WIDTH}x{HEIGHT}");
-        let look = ["-c", "settings.ini", "--plain", "--aa", "none", "--size", &size, "-q"];
+        let pixels = format!("{}x{}", size[0], size[1]);
+        let look = ["-c", "settings.ini", "--plain", "--aa", "none", "--size", &pixels, "-q"];
         for command in [["diagram", "-o", "ours.png"], ["export", "-o", "scene.pov"]] {
             lightsquare(here).args(command).args(subject).args(look).assert().success();
         }
-        assert_agreement(name, &read(&here.join("ours.png")), &by_povray(here));
+        assert_agreement(name, &read(&here.join("ours.png")), &by_povray(here, size));
     }
 }
 
@@ -187,10 +217,11 @@ fn carved_bodies_look_as_povray_shows_them() {
     }
     let scene = carvings();
     let folder = tempfile::tempdir().unwrap();
-    let written = pov(&scene, WIDTH, HEIGHT, "scene");
+    let [width, height] = [500, 300];
+    let written = pov(&scene, width, height, "scene");
     assert!(written.bitmaps.is_empty());
     std::fs::write(folder.path().join("scene.pov"), written.text).unwrap();
-    let (ours, _) = render(&scene, WIDTH, HEIGHT, Antialiasing::None);
-    let theirs = by_povray(folder.path());
+    let (ours, _) = render(&scene, width, height, Antialiasing::None);
+    let theirs = by_povray(folder.path(), [width, height]);
     assert_agreement("carvings", &ours, &theirs);
 }
