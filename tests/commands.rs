@@ -163,6 +163,31 @@ fn settings_in_force_are_printed_as_a_file_that_says_the_same() {
 }
 
 #[test]
+fn printed_settings_name_their_pictures_wherever_they_are_saved() {
+    let folder = TempDir::new().unwrap();
+    let here = folder.path();
+    for name in ["a #b", "elsewhere"] {
+        fs::create_dir(here.join(name)).unwrap();
+    }
+    RgbImage::from_fn(4, 3, |x, y| image::Rgb([60 * x as u8, 80 * y as u8, 9]))
+        .save(here.join("a #b/picture.png"))
+        .unwrap();
+    let settings =
+        "[Pieces]\nWhite=m\n[Material m]\nTexture=bitmap\nBitmap=picture.png ; a picture\n";
+    fs::write(here.join("a #b/c.ini"), settings).unwrap();
+    let king = ["diagram", "--white", "KE1", "--size", "40x30"];
+    let with = |file, more: &[&str]| run(here, &[&king[..], &["-c", file], more].concat());
+    let printed = with("a #b/c.ini", &["--print-config"]).1;
+    fs::write(here.join("elsewhere/c.ini"), &printed).unwrap();
+    assert_eq!(with("elsewhere/c.ini", &["--print-config"]).1, printed);
+    for (file, picture) in [("a #b/c.ini", "a.png"), ("elsewhere/c.ini", "b.png")] {
+        let (code, _, stderr) = with(file, &["-o", picture]);
+        assert_eq!(code, 0, "{stderr}");
+    }
+    assert_eq!(read(&here.join("a.png")), read(&here.join("b.png")));
+}
+
+#[test]
 fn a_scene_is_written_with_its_pictures_beside_it() {
     let folder = folder();
     let here = folder.path();

@@ -35,7 +35,10 @@ pub fn read(text: &str) -> (Vec<Section<'_>>, Vec<Fault>) {
                 continue;
             }
             (_, Some((key, value)), Some(section)) => {
-                section.entries.push(Entry { line: number, key: key.trim(), value: value.trim() });
+                let value = value.trim();
+                let quoted = value.strip_prefix('"').and_then(|rest| rest.strip_suffix('"'));
+                let value = quoted.unwrap_or(value);
+                section.entries.push(Entry { line: number, key: key.trim(), value });
                 continue;
             }
             (_, Some(_), None) => "stands before the first [section]",
@@ -49,10 +52,12 @@ pub fn read(text: &str) -> (Vec<Section<'_>>, Vec<Fault>) {
 }
 
 /// The part of a line before a `;` or `#` that stands first or behind a blank. (Within a value,
-/// a path say, they are its own.)
+/// a path say, they are its own; and so is everything between double quotes.)
 fn without_comment(line: &str) -> &str {
     let begins = |(at, _): &(usize, &str)| {
-        line[..*at].is_empty() || line[..*at].ends_with(char::is_whitespace)
+        let before = &line[..*at];
+        let is_quoted = before.matches('"').count() % 2 == 1;
+        !is_quoted && (before.is_empty() || before.ends_with(char::is_whitespace))
     };
     line.match_indices([';', '#']).find(begins).map_or(line, |(at, _)| &line[..at])
 }

@@ -253,7 +253,7 @@ impl Config {
     /// that it names are sought from `folder` on.
     ///
     /// Names of sections and keys count without their case; a `;` or `#` at the
-    /// beginning of a line or behind a blank begins a comment.
+    /// beginning of a line or behind a blank begins a comment, but not between double quotes.
     ///
     /// # Errors
     /// Every line that cannot be used: no section or key of that name, a value out of its range,

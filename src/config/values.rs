@@ -142,7 +142,8 @@ impl Format<PathBuf> for File {
         }
         // What is printed may be saved in another folder.
         let path = std::path::absolute(value).unwrap_or_else(|_| value.clone());
-        Some(path.display().to_string())
+        let text = path.display().to_string();
+        Some(if text.contains([';', '#']) { format!("\"{text}\"") } else { text })
     }
 }
 
