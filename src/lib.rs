@@ -29,7 +29,11 @@
 //! and sets the exit code; it alone prints. A test holds the imports against this table.
 //!
 //! Where this differs from the first design: a camera's turn is part of the frame, as an angle about
-//! the board's middle, so that the timeline needs no geometry.
+//! the board's middle, so that the timeline needs no geometry. `export` reads what scenes are made
+//! of, and so uses `assets` (bitmaps) and `config` (kinds of mapping and filter) too. Where it differs
+//! from the thesis: light loses a share at each surface of glass, where the thesis has full shadows;
+//! total internal reflection throws all back, whatever the material's shares; colours are cut to what
+//! can be shown when they are stored, not at each surface.
 
 pub mod assets;
 pub mod config;

@@ -3,7 +3,7 @@
 //! Everything here has an inside: a ray meets a [`Solid`] in *spans*, the stretches of the ray that
 //! lie inside it. Spans are what constructive solid geometry combines, and the first end of a
 //! span in front of the eye is what the eye sees. A new shape is a file with one `impl Solid`, and
-//! a line in [`Shape`].
+//! a line in [`Shape`]; the compiler then asks those who write shapes down for theirs.
 
 mod bounds;
 mod csg;
