@@ -99,7 +99,7 @@ fn bad_thesis_lines_and_settings_get_a_sentence() {
         (
             &["-output", "a.bmp", "-config", "lights.ini"],
             1,
-            "lights.ini: LightCount is 3, expected a section [Light2]",
+            "lights.ini: line 2: LightCount is 3, expected a section [Light2]",
         ),
         (
             &["-output", "a.bmp", "-config", "camera.ini"],
@@ -114,7 +114,7 @@ fn bad_thesis_lines_and_settings_get_a_sentence() {
         (
             &["diagram", "--white", "KE1", "-c", "bitmap.ini"],
             1,
-            "broken.png: cannot be read as a picture, expected BMP or PNG",
+            "bitmap.ini: line 3: the picture `broken.png` cannot be read (",
         ),
         (&["diagram", "--white", "KE1", "--set", "staunton"], 2, "[possible values: thesis]"),
         (&["diagram", "--white", "KE1", "--aa", "3"], 2, "[possible values: none, grid, adaptive]"),
@@ -202,6 +202,38 @@ fn a_scene_is_written_with_its_pictures_beside_it() {
     // What holds no picture fits into a pipe.
     let (code, stdout, _) = run(here, &["export", "--white", "KE1", "-o", "-"]);
     assert!(code == 0 && stdout.contains("camera {"));
+}
+
+#[test]
+fn an_export_that_fails_changes_nothing() {
+    let folder = folder();
+    let here = folder.path();
+    fs::write(here.join("clock.ini"), "[Clock]\nShow=yes\n").unwrap();
+    fs::write(here.join("scene.pov"), "an older one").unwrap();
+    fs::create_dir(here.join("scene-bitmap0.png")).unwrap();
+    let arguments = ["export", "--white", "KE1", "-c", "clock.ini", "-o", "scene.pov"];
+    let (code, _, stderr) = run(here, &arguments);
+    assert_eq!(code, 1);
+    assert!(stderr.contains("scene-bitmap0.png: cannot be written"), "{stderr}");
+    assert_eq!(fs::read_to_string(here.join("scene.pov")).unwrap(), "an older one");
+    assert_eq!(fs::read_dir(here).unwrap().count(), 4);
+}
+
+#[test]
+fn pictures_of_a_game_do_not_take_the_place_of_what_they_are_made_of() {
+    let folder = folder();
+    let here = folder.path();
+    fs::write(here.join("g.pgn"), "1. e4 *\n").unwrap();
+    let render = ["render", "g.pgn", "--size", "8x8", "--aa", "none", "-o", "out"];
+    assert_eq!(run(here, &render).0, 0);
+    let frame = "out/g/0001-white-black/frame_00000.png";
+    let settings = format!("[Pieces]\nWhite=m\n[Material m]\nTexture=bitmap\nBitmap={frame}\n");
+    fs::write(here.join("c.ini"), settings).unwrap();
+    let before = fs::read(here.join(frame)).unwrap();
+    let (code, _, stderr) = run(here, &[&render[..], &["-c", "c.ini"]].concat());
+    assert_eq!(code, 1);
+    assert!(stderr.contains("is read, and lies in a folder that is written to"), "{stderr}");
+    assert_eq!(fs::read(here.join(frame)).unwrap(), before);
 }
 
 #[test]

@@ -133,6 +133,7 @@ pub fn interpret(
 ) -> Config {
     let mut global = Global { config: base, ..Global::default() };
     let mut camera_line = 0;
+    let mut count_lines = [0; 2];
     let mut lights: Vec<Numbered<Light>> = Vec::new();
     let mut models: Vec<Numbered<Model>> = Vec::new();
     let mut uses: Vec<Use> = Vec::new();
@@ -148,7 +149,8 @@ pub fn interpret(
         let config = &mut global.config;
         match name.as_str() {
             "globalsettings" => {
-                read_section(section, &GLOBAL_KEYS, &mut global, faults);
+                let lines = read_section(section, &GLOBAL_KEYS, &mut global, faults);
+                count_lines = [lines.of("LightCount"), lines.of("ModelCount")];
             }
             "camera" => {
                 camera_line = section.line;
@@ -218,10 +220,14 @@ pub fn interpret(
             faults.push(Fault { line: light.lines.of(""), message });
         }
     }
-    if let Some(lights) = counted("Light", light_count, MAX_LIGHTS, lights, faults) {
+    if let Some(lights) =
+        counted("Light", light_count.zip(Some(count_lines[0])), MAX_LIGHTS, lights, faults)
+    {
         config.lights = lights;
     }
-    if let Some(models) = counted("Model", model_count, MAX_MODELS, models, faults) {
+    if let Some(models) =
+        counted("Model", model_count.zip(Some(count_lines[1])), MAX_MODELS, models, faults)
+    {
         config.models = models;
     }
     for used in uses {
@@ -253,11 +259,11 @@ fn numbered<T: Default>(
     Numbered { number, name: section.name.to_owned(), value, lines }
 }
 
-/// A file that speaks of lights (or models) describes all of them: as many sections as their count
-/// says. `None` when it does not speak of them.
+/// A file that speaks of lights (or models) describes all of them: as many sections as their count,
+/// which stands in a line, says. `None` when it does not speak of them.
 fn counted<T>(
     what: &str,
-    count: Option<u32>,
+    count: Option<(u32, usize)>,
     max: u32,
     mut sections: Vec<Numbered<T>>,
     faults: &mut Vec<Fault>,
@@ -270,7 +276,7 @@ fn counted<T>(
     };
     let mut fault = |line, message| faults.push(Fault { line, message });
     match count {
-        Some(count) => {
+        Some((count, line)) => {
             for section in sections.iter().filter(|section| section.number >= count) {
                 let message = format!("there is a [{}], but {what}Count is {count}", section.name);
                 fault(section.lines.of(""), message);
@@ -278,7 +284,7 @@ fn counted<T>(
             if let Some(number) = missing(count) {
                 let message =
                     format!("{what}Count is {count}, expected a section [{what}{number}]");
-                fault(0, message);
+                fault(line, message);
             }
         }
         None => {
@@ -325,9 +331,8 @@ fn check_material(
     }
     if material.bitmap.as_os_str().is_empty() {
         fault("Texture", format!("[{section}] has no Bitmap, expected the name of a picture"));
-    } else if !material.bitmap.is_file() {
+    } else if let Some(found) = unusable(&material.bitmap) {
         let path = material.bitmap.display();
-        let found = if material.bitmap.exists() { "is no file" } else { "is not there" };
         fault("Bitmap", format!("the picture `{path}` {found}, expected a BMP or PNG file"));
     }
     for (key, vector) in [("U", material.u), ("V", material.v)] {
@@ -343,6 +348,23 @@ fn check_material(
             Mapping::Cylindrical | Mapping::Spherical => "an axis and a direction from it",
         };
         fault("V", format!("U and V have the same direction, expected {expected}"));
+    }
+}
+
+/// What is wrong with a picture, as far as its first bytes tell.
+fn unusable(path: &Path) -> Option<String> {
+    if !path.exists() {
+        return Some("is not there".to_owned());
+    }
+    if !path.is_file() {
+        return Some("is no file".to_owned());
+    }
+    match image::image_dimensions(path) {
+        Err(error) => Some(format!("cannot be read ({error})")),
+        Ok((width, height)) if width.max(height) > MAX_SIDE => {
+            Some(format!("is {width} x {height} pixels, at most {MAX_SIDE} a side are read"))
+        }
+        Ok(_) => None,
     }
 }
 
@@ -411,7 +433,10 @@ mod tests {
                 "[GlobalSettings]\nBackgroundColor=0,0",
                 "line 2: BackgroundColor is `0,0`, expected three numbers from 0 to 1",
             ),
-            ("[GlobalSettings]\nModelCount=1", "ModelCount is 1, expected a section [Model0]"),
+            (
+                "[GlobalSettings]\nModelCount=1",
+                "line 2: ModelCount is 1, expected a section [Model0]",
+            ),
             ("[Model0]\nShape=cone", "line 2: Shape is `cone`, expected one of plane, sphere, box"),
             ("[Model0]\nShape=sphere\nCenter=0,0,0", "line 1: [Model0] has no Radius"),
             ("[Model0]\nShape=plane\nOrigin=0,0,0\nNormal=0,0,0", "line 4: Normal has no length"),
@@ -438,11 +463,11 @@ mod tests {
                 "line 3: the picture `no/such.png` is not there, expected a BMP or PNG file",
             ),
             (
-                "[Material m]\nTexture=bitmap\nBitmap=Cargo.toml\nU=0,0,0",
+                "[Material m]\nTexture=bitmap\nBitmap=docs/hero.png\nU=0,0,0",
                 "line 4: U has no length, expected a direction",
             ),
             (
-                "[Material m]\nTexture=bitmap\nBitmap=Cargo.toml\nU=0,0,2\nV=0,0,-1",
+                "[Material m]\nTexture=bitmap\nBitmap=docs/hero.png\nU=0,0,2\nV=0,0,-1",
                 "line 5: U and V have the same direction",
             ),
             (
@@ -527,7 +552,7 @@ mod tests {
             [Model0]\nShape=plane\nOrigin=0,-9,0\nNormal=0,1,0\nMaterial=floor\n\
             [Model1]\nShape=box\nMin=0,0,0\nMax=1,1,1\nRotation=0,45,0\n\
             [Material own]\nTexture=marble\nOctaves=3\n[Material white]\nShininess=7\n\
-            [Material floor]\nTexture=bitmap\nBitmap=Cargo.toml\nMapping=spherical\nU=0,0,2\n";
+            [Material floor]\nTexture=bitmap\nBitmap=docs/hero.png\nMapping=spherical\nU=0,0,2\n";
         for config in [Config::default(), Config::parse(text).unwrap()] {
             let printed = config.to_ini();
             let again = Config::parse(&printed).unwrap();

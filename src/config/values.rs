@@ -111,7 +111,8 @@ impl<V: Copy + PartialEq> Format<V> for Choice<V> {
 
 impl Format<String> for Name {
     fn read(&self, text: &str) -> Result<String, Expected> {
-        if text.is_empty() { Err("a name".to_owned()) } else { Ok(text.to_lowercase()) }
+        let words: Vec<String> = text.split_whitespace().map(str::to_lowercase).collect();
+        if words.is_empty() { Err("a name".to_owned()) } else { Ok(words.join(" ")) }
     }
 
     fn show(&self, value: &String) -> Option<String> {

@@ -4,7 +4,8 @@
 //! segments are shaded flat), MIP levels (it reads bitmaps between four texels), a limit of the
 //! distance, and wood and marble, which become its own patterns of noise. It also sees nothing of
 //! a surface that touches glass from outside (it takes no hit within 0.001 of a ray's origin), and
-//! may see faces inside the union of transparent bodies where their walls lie in one plane.
+//! may see faces inside the union of transparent bodies where their walls lie in one plane. Where a
+//! face lies on the very border of two copies of a bitmap, it may take the other one.
 
 use std::fmt::{Display, Formatter, Write};
 use std::sync::Arc;
@@ -40,6 +41,9 @@ const RUN: usize = 8;
 
 /// Cells of its chequer are cubes; ours go on for ever upwards and downwards.
 const TALL: f64 = 1e6;
+
+/// It weighs rays otherwise, and drops some that we follow; so it follows fainter ones.
+const FAINTER: f64 = 1000.0;
 
 /// Its opacity scales the light that a surface scatters, so what is quite transparent cannot
 /// scatter any; this nearly is.
@@ -89,7 +93,7 @@ impl Writer<'_> {
             self,
             "global_settings {{ assumed_gamma srgb max_trace_level {} adc_bailout {} }}",
             scene.max_depth + 1,
-            scene.min_weight
+            scene.min_weight / FAINTER
         );
         line!(self, "background {{ rgb {} }}", vector(scene.background));
         line!(self, "camera {{");

@@ -7,7 +7,7 @@ use super::studio::{PictureSettings, stage};
 use super::subject::{Subject, keep_inputs};
 use super::{JobError, Progress, shown};
 use crate::export::pov;
-use crate::output::{prepare_file, write_png, write_text};
+use crate::output::{Content, encode_png, prepare_file, write_together};
 
 /// Which position to write down, and where to.
 #[derive(Clone, Debug)]
@@ -34,10 +34,7 @@ pub fn export(
     let scene = stage(&job.picture)?.scene(&shot.frame);
     let config = &job.picture.config;
     let stem = job.output.file_stem().map_or("scene".into(), |stem| stem.to_string_lossy());
-    // POV-Ray reads plain names alone.
-    let is_plain = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
-    let plain: String = stem.chars().map(|c| if is_plain(c) { c } else { '-' }).collect();
-    let written = pov(&scene, config.width, config.height, &plain);
+    let written = pov(&scene, config.width, config.height, &plain(&stem));
     if job.output == Path::new("-") {
         if !written.bitmaps.is_empty() {
             return Err(JobError::BitmapsOnStdout);
@@ -45,17 +42,22 @@ pub fn export(
         stdout.write_all(written.text.as_bytes()).map_err(JobError::Write)?;
         return Ok(shot.is_whole);
     }
-    let beside = |name: &str| job.output.with_file_name(name);
-    keep_inputs(&job.subject, &job.picture, &job.output)?;
-    for (name, _) in &written.bitmaps {
-        keep_inputs(&job.subject, &job.picture, &beside(name))?;
+    let text = |out: &mut dyn Write| out.write_all(written.text.as_bytes());
+    let pictures: Vec<_> = written
+        .bitmaps
+        .iter()
+        .map(|(name, bitmap)| {
+            let encode = |out: &mut dyn Write| encode_png(bitmap.picture(), &[], out);
+            (job.output.with_file_name(name), encode)
+        })
+        .collect();
+    let mut files: Vec<(PathBuf, Content)> = vec![(job.output.clone(), &text)];
+    files.extend(pictures.iter().map(|(path, encode)| (path.clone(), encode as Content)));
+    for (path, _) in &files {
+        keep_inputs(&job.subject, &job.picture, path)?;
     }
     prepare_file(&job.output)?;
-    // The scene first: where it cannot be written, nothing is left beside it.
-    write_text(&job.output, &written.text)?;
-    for (name, bitmap) in &written.bitmaps {
-        write_png(&beside(name), bitmap.picture(), &[])?;
-    }
+    write_together(&files)?;
     progress.say(&format!("{} is written", shown(&job.output)));
     let folder = job.output.parent().filter(|folder| !folder.as_os_str().is_empty());
     let folder = folder.map_or(String::new(), |folder| format!(" in {}", shown(folder)));
@@ -64,4 +66,27 @@ pub fn export(
         config.width, config.height
     ));
     Ok(shot.is_whole)
+}
+
+/// `name` in letters, digits and hyphens of ASCII, which every program reads; other names stay other.
+fn plain(name: &str) -> String {
+    let written = |letter: char| match letter {
+        '-' => "-".to_owned(),
+        _ if letter.is_ascii_alphanumeric() => letter.to_string(),
+        _ => format!("_{:x}", u32::from(letter)),
+    };
+    name.chars().map(written).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::plain;
+
+    #[test]
+    fn plain_names_differ_where_names_do() {
+        let names = ["scene-1", "a b", "a_b", "a_20b", "ä", "ö", "q\"uote", "back\\slash"];
+        let plain: std::collections::BTreeSet<String> = names.into_iter().map(plain).collect();
+        assert_eq!(plain.len(), names.len());
+        assert!(plain.contains("scene-1") && plain.iter().all(|name| name.is_ascii()));
+    }
 }

@@ -43,6 +43,11 @@ pub enum JobError {
     NoPosition { file: String, game: usize },
     #[error("{}: is the file that is read, expected another one to write", path.display())]
     OutputIsInput { path: PathBuf },
+    #[error(
+        "{}: is read, and lies in a folder that is written to, expected another --out",
+        path.display()
+    )]
+    InputInOutput { path: PathBuf },
     #[error("{file}: game {game} would take {frames} frames, expected at most {MAX_FRAMES}")]
     TooLong { file: String, game: usize, frames: usize },
     #[error(transparent)]

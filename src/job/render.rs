@@ -1,6 +1,7 @@
 //! Whole games, as numbered pictures in folders.
 
 use std::ffi::OsStr;
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::report::{FrameRow, Manifest, ReportLine, Status, tags, texts};
@@ -76,6 +77,7 @@ pub fn render(job: &RenderJob, progress: &dyn Progress) -> Result<Summary, JobEr
     let mut run =
         Run { job, progress, studio: Studio::new(&job.picture)?, summary: Summary::default() };
     for batch in &batches {
+        keep_out(job, &batch.folder)?;
         prepare_folder(&batch.folder)?;
     }
     let parts = batches.iter().flat_map(|batch| &batch.games).filter_map(|(_, part)| part.as_ref());
@@ -87,6 +89,21 @@ pub fn render(job: &RenderJob, progress: &dyn Progress) -> Result<Summary, JobEr
     }
     run.summary.rays = run.studio.rays();
     Ok(run.summary)
+}
+
+/// Refuses to write into a folder that holds what is read: a game, the settings, a picture.
+fn keep_out(job: &RenderJob, folder: &Path) -> Result<(), JobError> {
+    let Ok(folder) = fs::canonicalize(folder) else {
+        return Ok(());
+    };
+    let PictureSettings { config, config_file, .. } = &job.picture;
+    let mut inputs = job.inputs.iter().chain(config_file).chain(config.bitmaps());
+    let lies_within =
+        |input: &&PathBuf| fs::canonicalize(input).is_ok_and(|input| input.starts_with(&folder));
+    match inputs.find(lies_within) {
+        Some(input) => Err(JobError::InputInOutput { path: input.clone() }),
+        None => Ok(()),
+    }
 }
 
 /// One folder name a file: its own without the ending, with a number where that is taken.

@@ -12,12 +12,14 @@ mod slug;
 pub use frames::{frame_name, remove_frames};
 pub use picture::{PictureFormat, write_picture};
 pub use png::{encode_png, write_png};
-pub use record::{write_json, write_json_lines, write_text};
+pub use record::{write_json, write_json_lines};
 pub use slug::slug;
 
 use std::fs;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+
+use tempfile::NamedTempFile;
 
 /// A file or folder that could not be written.
 #[derive(Debug, thiserror::Error)]
@@ -50,23 +52,55 @@ pub fn prepare_file(file: &Path) -> Result<(), OutputError> {
     }
 }
 
-/// Writes a file through `write`, whole or not at all; a file of that name is replaced. What is no
-/// file (a pipe, a device) is written to as it is; a link is followed.
+/// What a file is to hold.
+pub type Content<'a> = &'a dyn Fn(&mut dyn Write) -> io::Result<()>;
+
+/// Writes files, all of them or none: each whole under a temporary name in its folder, then all
+/// renamed. A file of that name is replaced. What is no file (a pipe, a device) is written to as it
+/// is; a link is followed.
+///
+/// # Errors
+/// When one of them cannot be written.
+pub fn write_together(files: &[(PathBuf, Content)]) -> Result<(), OutputError> {
+    let staged: Vec<_> =
+        files.iter().map(|(path, content)| staged(path, content)).collect::<Result<_, _>>()?;
+    for ((path, _), file) in files.iter().zip(staged) {
+        if let Some((file, target)) = file {
+            let failed = |error: tempfile::PersistError| OutputError {
+                path: path.clone(),
+                error: error.error,
+            };
+            file.persist(&target).map_err(failed)?;
+        }
+    }
+    Ok(())
+}
+
+/// Writes a file as [`write_together`] does.
 fn write_whole(
     path: &Path,
-    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    content: impl Fn(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), OutputError> {
+    write_together(&[(path.to_owned(), &content)])
+}
+
+/// A file under a temporary name, and where it belongs; nothing is left to do for what is no file.
+fn staged(path: &Path, content: Content) -> Result<Option<(NamedTempFile, PathBuf)>, OutputError> {
     let target = fs::canonicalize(path).unwrap_or_else(|_| match fs::read_link(path) {
         // A link to a file that is still to come.
         Ok(link) => path.parent().unwrap_or(Path::new("")).join(link),
         Err(_) => path.to_owned(),
     });
-    let special = fs::metadata(&target).is_ok_and(|found| !found.is_file() && !found.is_dir());
+    let found = fs::metadata(&target).ok();
     let written = || {
-        if special {
+        if found.as_ref().is_some_and(fs::Metadata::is_dir) {
+            return Err(io::ErrorKind::IsADirectory.into());
+        }
+        if found.is_some_and(|found| !found.is_file()) {
             let mut out = BufWriter::new(fs::OpenOptions::new().write(true).open(&target)?);
-            write(&mut out)?;
-            return out.flush();
+            content(&mut out)?;
+            out.flush()?;
+            return Ok(None);
         }
         let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty());
         let mut builder = tempfile::Builder::new();
@@ -75,10 +109,9 @@ fn write_whole(
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
         let mut out = BufWriter::new(builder.tempfile_in(folder.unwrap_or(Path::new(".")))?);
-        write(&mut out)?;
+        content(&mut out)?;
         let file = out.into_inner().map_err(io::IntoInnerError::into_error)?;
-        file.persist(&target).map_err(|error| error.error)?;
-        Ok(())
+        Ok(Some((file, target.clone())))
     };
     written().map_err(|error| OutputError { path: path.to_owned(), error })
 }

@@ -1,4 +1,4 @@
-//! Records in JSON, and other text. They hold no clock times: the same run writes the same bytes.
+//! Records in JSON. They hold no clock times: the same run writes the same bytes.
 
 use std::path::Path;
 
@@ -15,14 +15,6 @@ pub fn write_json(path: &Path, value: &impl Serialize) -> Result<(), OutputError
         serde_json::to_writer_pretty(&mut out, value)?;
         writeln!(out)
     })
-}
-
-/// Writes text as it is.
-///
-/// # Errors
-/// When the file cannot be written.
-pub fn write_text(path: &Path, text: &str) -> Result<(), OutputError> {
-    write_whole(path, |out| out.write_all(text.as_bytes()))
 }
 
 /// Writes one value a line.
