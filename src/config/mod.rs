@@ -228,7 +228,7 @@ impl Config {
             render: Render {
                 sampling: Sampling::Grid,
                 rays: 2,
-                threshold: 0.05,
+                threshold: 0.03,
                 max_depth: 5,
                 max_distance: FARTHEST,
                 subdivisions: 4,
