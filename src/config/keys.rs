@@ -48,7 +48,8 @@ impl<T> Key<T> {
     }
 }
 
-/// Where the keys of a section stand.
+/// Where the keys of a section stand; line 0 for a section that is not there.
+#[derive(Default)]
 pub struct Lines {
     section: usize,
     keys: Vec<(&'static str, usize)>,

@@ -137,6 +137,7 @@ pub fn interpret(
     let mut lights: Vec<Numbered<Light>> = Vec::new();
     let mut models: Vec<Numbered<Model>> = Vec::new();
     let mut uses: Vec<Use> = Vec::new();
+    let [mut board_lines, mut pieces_lines, mut clock_lines] = [(); 3].map(|()| Lines::default());
     let mut seen: Vec<String> = Vec::new();
     for section in document {
         let words: Vec<String> = section.name.split_whitespace().map(str::to_lowercase).collect();
@@ -160,25 +161,13 @@ pub fn interpret(
                 read_section(section, &RENDER_KEYS, &mut config.render, faults);
             }
             "board" => {
-                let lines = read_section(section, &BOARD_KEYS, &mut config.board, faults);
-                let Board { light, dark, frame, table } = &config.board;
-                uses.extend([
-                    Use { of: Part::Square, ..lines.uses("Light", light) },
-                    Use { of: Part::Square, ..lines.uses("Dark", dark) },
-                    lines.uses("Frame", frame),
-                ]);
-                uses.extend(
-                    table.as_ref().map(|name| Use { of: Part::Plane, ..lines.uses("Table", name) }),
-                );
+                board_lines = read_section(section, &BOARD_KEYS, &mut config.board, faults);
             }
             "pieces" => {
-                let lines = read_section(section, &PIECES_KEYS, &mut config.pieces, faults);
-                let Pieces { white, black } = &config.pieces;
-                uses.extend([lines.uses("White", white), lines.uses("Black", black)]);
+                pieces_lines = read_section(section, &PIECES_KEYS, &mut config.pieces, faults);
             }
             "clock" => {
-                let lines = read_section(section, &CLOCK_KEYS, &mut config.clock, faults);
-                uses.push(lines.uses("Case", &config.clock.case));
+                clock_lines = read_section(section, &CLOCK_KEYS, &mut config.clock, faults);
             }
             "material none" => {
                 let message = "a material cannot be named none, expected another name".to_owned();
@@ -230,6 +219,18 @@ pub fn interpret(
     {
         config.models = models;
     }
+    // What a file does not mention is used too, and may be of a material that it changes.
+    let Config { board: Board { light, dark, frame, table }, pieces, clock, .. } = &config;
+    uses.extend([
+        Use { of: Part::Square, ..board_lines.uses("Light", light) },
+        Use { of: Part::Square, ..board_lines.uses("Dark", dark) },
+        board_lines.uses("Frame", frame),
+        pieces_lines.uses("White", &pieces.white),
+        pieces_lines.uses("Black", &pieces.black),
+        clock_lines.uses("Case", &clock.case),
+    ]);
+    let on_table = |name: &String| Use { of: Part::Plane, ..board_lines.uses("Table", name) };
+    uses.extend(table.as_ref().map(on_table));
     for used in uses {
         check_use(&config, &used, faults);
     }
@@ -476,6 +477,7 @@ mod tests {
             ),
             ("[Material m]\nGrain=x", "line 2: Grain is for a texture of wood"),
             ("[Board]\nLight=c\n[Material c]\nTexture=chequer", "line 2: Light `c` is a chequer"),
+            ("[Material light]\nTexture=chequer", "Light `light` is a chequer"),
             ("[Material none]\n", "line 1: a material cannot be named none"),
             (
                 "[Material a]\n[Material  A]\n",

@@ -55,8 +55,8 @@ pub fn prepare_file(file: &Path) -> Result<(), OutputError> {
 /// What a file is to hold.
 pub type Content<'a> = &'a dyn Fn(&mut dyn Write) -> io::Result<()>;
 
-/// Writes files, all of them or none: each whole under a temporary name in its folder, then all
-/// renamed. A file of that name is replaced. What is no file (a pipe, a device) is written to as it
+/// Writes files, none of them if one cannot be written: each whole under a temporary name in its
+/// folder, then all renamed. A file of that name is replaced. What is no file (a pipe, a device) is written to as it
 /// is; a link is followed.
 ///
 /// # Errors
