@@ -5,9 +5,10 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, bail};
 use clap::{Args, ValueEnum};
 use lightsquare::assets::SetName;
-use lightsquare::config::{Config, Look, Sampling};
+use lightsquare::config::{Config, Look, Sampling, unknown};
 use lightsquare::job::PictureSettings;
 
+use super::UsageError;
 use super::values::{rays, size, threads};
 
 /// What every picture has; the same words for every command.
@@ -34,8 +35,12 @@ pub struct PictureArgs {
     #[arg(long, value_name = "NAME", default_value = "thesis")]
     set: SetArg,
     /// What pictures look like before any setting: camera, lights, materials
-    #[arg(long, value_name = "NAME", default_value = "thesis")]
+    #[arg(long, value_name = "NAME", default_value = "studio")]
     look: LookArg,
+    /// What pieces, board and table are made of: wood, tournament, marble, glass, print, thesis, or
+    /// a [Theme ...] of the settings [default: wood; thesis in the thesis's look]
+    #[arg(long, value_name = "NAME")]
+    theme: Option<String>,
     /// Wood and marble as plain colours
     #[arg(long)]
     plain: bool,
@@ -61,6 +66,9 @@ enum SetArg {
 
 #[derive(Clone, Copy, ValueEnum)]
 enum LookArg {
+    /// Soft light in a room, lacquered wood.
+    Studio,
+    /// As in the thesis of 2008: Phong's model, hard shadows.
     Thesis,
 }
 
@@ -68,10 +76,19 @@ impl PictureArgs {
     /// The settings: flags over the file, the file over the look.
     pub fn settings(&self) -> anyhow::Result<PictureSettings> {
         let look = match self.look {
+            LookArg::Studio => Look::Studio,
             LookArg::Thesis => Look::Thesis,
         };
         let config_file = config_file(self.config.as_deref());
         let mut config = read_config(Config::new(look), config_file.as_deref())?;
+        if let Some(theme) = &self.theme {
+            let name = theme.to_lowercase();
+            if !config.themes.contains_key(&name) {
+                let known = config.themes.keys().map(String::as_str);
+                bail!(UsageError(format!("--theme: {}", unknown("theme", theme, known))));
+            }
+            config.theme = name;
+        }
         if let Some((width, height)) = self.size {
             (config.width, config.height) = (width, height);
         }

@@ -1,13 +1,12 @@
 //! `[Material …]`: what bodies are made of.
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use glam::DVec3;
 use serde::{Serialize, Serializer};
 
 use super::keys::{Key, key};
-use super::values::{COLOR, Choice, File, Integer, Number, PLACE};
+use super::values::{COLOR, Choice, File, Integer, Number, PLACE, YES_NO};
 
 /// How a surface answers light: the constants of Phong's model (Turek 2008, 2.3), and how much of
 /// a mirror and of a window it is.
@@ -27,11 +26,25 @@ pub struct Finish {
     pub transparency: f64,
 }
 
+/// How a surface answers the studio's light: a coloured ground under a clear coat, a metal, or glass.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Coat {
+    /// Refractive index of the clear coat (Fresnel's reflection), 1 (none) to 3; of glass it is that
+    /// of all that is transparent instead.
+    pub coat: f64,
+    /// How far the mirror image is blurred, 0 (polished) to 1 (matt).
+    pub roughness: f64,
+    /// Whether the colour is that of the mirror, and nothing lies under it.
+    pub metal: bool,
+}
+
 /// What a `[Material …]` section says.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Material {
     #[serde(flatten)]
     pub finish: Finish,
+    #[serde(flatten)]
+    pub coat: Coat,
     pub texture: Texture,
     /// The colour, or the first of two; of a chequer that of the squares which have their sum of
     /// column and row even.
@@ -65,6 +78,7 @@ pub enum Texture {
     Plain,
     Chequer,
     Wood,
+    Timber,
     Marble,
     Bitmap,
 }
@@ -95,6 +109,7 @@ const TEXTURES: Choice<Texture> = Choice(&[
     ("plain", Texture::Plain),
     ("chequer", Texture::Chequer),
     ("wood", Texture::Wood),
+    ("timber", Texture::Timber),
     ("marble", Texture::Marble),
     ("bitmap", Texture::Bitmap),
 ]);
@@ -107,13 +122,16 @@ const MAPPINGS: Choice<Mapping> = Choice(&[
 
 const AXES: Choice<Axis> = Choice(&[("x", Axis::X), ("y", Axis::Y), ("z", Axis::Z)]);
 
-pub const KEYS: [Key<Material>; 17] = [
+pub const KEYS: [Key<Material>; 20] = [
     key!("Ambient", Material, finish.ambient: Number(0.0, 10.0)),
     key!("Diffuse", Material, finish.diffuse: Number(0.0, 10.0)),
     key!("Specular", Material, finish.specular: Number(0.0, 10.0)),
     key!("Shininess", Material, finish.shininess: Number(1.0, 10_000.0)),
     key!("Reflectivity", Material, finish.reflectivity: Number(0.0, 1.0)),
     key!("Transparency", Material, finish.transparency: Number(0.0, 1.0)),
+    key!("Coat", Material, coat.coat: Number(1.0, 3.0)),
+    key!("Roughness", Material, coat.roughness: Number(0.0, 1.0)),
+    key!("Metal", Material, coat.metal: YES_NO),
     key!("Texture", Material, texture: TEXTURES),
     key!("Color", Material, color: COLOR)
         .only("a texture with colours", |m| m.texture != Texture::Bitmap),
@@ -123,7 +141,8 @@ pub const KEYS: [Key<Material>; 17] = [
         .only("a texture of two colours", Material::has_two_colors),
     key!("Octaves", Material, octaves: Integer(1, 16))
         .only("a texture of noise", |m| matches!(m.texture, Texture::Wood | Texture::Marble)),
-    key!("Grain", Material, grain: AXES).only("a texture of wood", |m| m.texture == Texture::Wood),
+    key!("Grain", Material, grain: AXES)
+        .only("a texture of wood", |m| matches!(m.texture, Texture::Wood | Texture::Timber)),
     key!("Bitmap", Material, bitmap: File)
         .only("a texture from a bitmap", |m| m.texture == Texture::Bitmap),
     key!("Mapping", Material, mapping: MAPPINGS)
@@ -136,68 +155,21 @@ pub const KEYS: [Key<Material>; 17] = [
 
 impl Material {
     fn has_two_colors(&self) -> bool {
-        matches!(self.texture, Texture::Chequer | Texture::Wood | Texture::Marble)
+        !matches!(self.texture, Texture::Plain | Texture::Bitmap)
     }
 
     /// Whether anything is seen through the material.
     pub fn is_transparent(&self) -> bool {
         self.finish.transparency > 0.0
     }
-
-    /// A polished material of one colour.
-    fn plain(color: [f64; 3]) -> Material {
-        Material { color: color.into(), ..Material::default() }
-    }
-
-    fn wood(colors: [[f64; 3]; 2], size: f64, grain: Axis) -> Material {
-        Material {
-            texture: Texture::Wood,
-            second_color: colors[1].into(),
-            size,
-            grain,
-            ..Material::plain(colors[0])
-        }
-    }
-
-    fn marble(colors: [[f64; 3]; 2]) -> Material {
-        let finish = Finish { reflectivity: 0.06, specular: 0.5, shininess: 90.0, ..POLISHED };
-        Material {
-            finish,
-            texture: Texture::Marble,
-            second_color: colors[1].into(),
-            size: 3.0,
-            octaves: 5,
-            ..Material::plain(colors[0])
-        }
-    }
-
-    fn glass(color: [f64; 3], transparency: f64) -> Material {
-        let finish = Finish {
-            ambient: 0.05,
-            diffuse: 0.08,
-            specular: 0.8,
-            shininess: 200.0,
-            reflectivity: 0.12,
-            transparency,
-        };
-        Material { finish, ..Material::plain(color) }
-    }
 }
-
-const POLISHED: Finish = Finish {
-    ambient: 0.2,
-    diffuse: 0.75,
-    specular: 0.4,
-    shininess: 60.0,
-    reflectivity: 0.0,
-    transparency: 0.0,
-};
 
 /// What a section of a new name starts from.
 impl Default for Material {
     fn default() -> Material {
         Material {
             finish: POLISHED,
+            coat: LACQUER,
             texture: Texture::Plain,
             color: DVec3::splat(0.8),
             second_color: DVec3::splat(0.2),
@@ -213,30 +185,13 @@ impl Default for Material {
     }
 }
 
-/// The materials that need no section: those of the thesis's look, then others to choose from.
-pub fn built_in() -> BTreeMap<String, Material> {
-    let square =
-        Finish { diffuse: 0.7, specular: 0.2, shininess: 80.0, reflectivity: 0.25, ..POLISHED };
-    let square = |color| Material { finish: square, ..Material::plain(color) };
-    let matt = Finish { diffuse: 0.7, specular: 0.15, shininess: 30.0, ..POLISHED };
-    let materials = [
-        ("white", Material::plain([0.91, 0.81, 0.63])),
-        ("black", Material::plain([0.24, 0.18, 0.15])),
-        ("light", square([0.86, 0.74, 0.54])),
-        ("dark", square([0.42, 0.26, 0.15])),
-        (
-            "frame",
-            Material {
-                finish: matt,
-                ..Material::wood([[0.36, 0.2, 0.1], [0.27, 0.14, 0.07]], 14.0, Axis::Z)
-            },
-        ),
-        ("boxwood", Material::wood([[0.91, 0.8, 0.6], [0.84, 0.7, 0.47]], 9.0, Axis::Y)),
-        ("walnut", Material::wood([[0.38, 0.23, 0.14], [0.28, 0.16, 0.09]], 9.0, Axis::Y)),
-        ("white-marble", Material::marble([[0.9, 0.89, 0.86], [0.5, 0.51, 0.54]])),
-        ("black-marble", Material::marble([[0.1, 0.11, 0.11], [0.45, 0.46, 0.44]])),
-        ("glass", Material::glass([0.8, 0.95, 0.9], 0.85)),
-        ("smoked-glass", Material::glass([0.3, 0.22, 0.16], 0.45)),
-    ];
-    materials.map(|(name, material)| (name.to_owned(), material)).into()
-}
+pub(super) const POLISHED: Finish = Finish {
+    ambient: 0.2,
+    diffuse: 0.75,
+    specular: 0.4,
+    shininess: 60.0,
+    reflectivity: 0.0,
+    transparency: 0.0,
+};
+
+pub(super) const LACQUER: Coat = Coat { coat: 1.5, roughness: 0.1, metal: false };

@@ -4,15 +4,21 @@
 
 mod ini;
 mod keys;
+mod look;
 mod material;
 mod model;
 mod nearest;
 mod sections;
+mod shelf;
+mod theme;
 mod values;
 
-pub use material::{Axis, Finish, Mapping, Material, Texture};
+pub use keys::unknown;
+pub use look::Look;
+pub use material::{Axis, Coat, Finish, Mapping, Material, Texture};
 pub use model::{Model, Shape};
 pub use nearest::nearest;
+pub use theme::{Edge, Parts, Scheme};
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -38,28 +44,58 @@ pub struct Config {
     /// Size of the picture in pixels, each side 1 to [`MAX_SIDE`].
     pub width: u32,
     pub height: u32,
-    /// What a ray sees that meets nothing; each channel 0 to 1, as it is written to the picture.
-    pub background: DVec3,
     /// Refractive index of all transparent materials, 1 to 5.
     pub snell_index: f64,
     pub lights: Vec<Light>,
+    pub room: Room,
     pub camera: Camera,
     pub render: Render,
-    pub board: Board,
-    pub pieces: Pieces,
+    /// The name of the theme, in small letters; it is one of `themes`.
+    pub theme: String,
+    pub themes: BTreeMap<String, Parts>,
+    /// What is not as the theme has it.
+    pub parts: Parts,
     pub clock: Clock,
     pub models: Vec<Model>,
     /// By name, in small letters; every name that the other settings use is here.
     pub materials: BTreeMap<String, Material>,
 }
 
-/// A point light without falloff.
+/// A light without falloff: a point, or in the studio a softbox that faces the board's middle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Light {
     /// In world units: 4 a square, a1 at the origin, y up.
     pub position: DVec3,
     /// Intensity of each channel, from 0 up.
     pub color: DVec3,
+    /// World units: the sides of a softbox, the first one level; 0 and 0 for a point.
+    pub width: f64,
+    pub height: f64,
+}
+
+/// What the studio has round the board.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Room {
+    /// Light from the horizon, from 30° above it, and from straight above; linear, from 0 up.
+    pub horizon: DVec3,
+    pub sky: DVec3,
+    pub zenith: DVec3,
+    /// Share of the light that surfaces throw at each other, 0 to 1.
+    pub bounce: f64,
+    /// Whether lights are given as seen from White's side, and turn with the camera's side.
+    pub turns: bool,
+}
+
+impl Default for Room {
+    fn default() -> Room {
+        Room {
+            horizon: DVec3::new(0.072, 0.075, 0.079),
+            sky: DVec3::new(0.24, 0.25, 0.262),
+            zenith: DVec3::new(0.40, 0.41, 0.425),
+            bounce: 0.3,
+            turns: true,
+        }
+    }
 }
 
 /// Where the camera stands and what it looks at.
@@ -80,6 +116,7 @@ pub struct Camera {
 /// How pictures are traced.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Render {
+    pub shading: Shading,
     pub sampling: Sampling,
     /// Rays along one side of a pixel, 1 to [`MAX_RAYS`], where it gets more than one.
     pub rays: u32,
@@ -95,6 +132,16 @@ pub struct Render {
     pub filter: Filter,
     /// Whether wood and marble are replaced by their mean colours.
     pub plain: bool,
+}
+
+/// How surfaces answer light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Shading {
+    /// Phong's sum, hard shadows, colours as they are written: the thesis's.
+    Phong,
+    /// Soft light, Fresnel's reflection, linear light through a tone curve.
+    Studio,
 }
 
 /// Where in pixels rays go (the thesis's modes 0, 1 and 2).
@@ -132,23 +179,6 @@ pub enum Filter {
     Mip,
 }
 
-/// The materials of the board, by name.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Board {
-    pub light: String,
-    pub dark: String,
-    pub frame: String,
-    /// The endless table that the board lies on, if any.
-    pub table: Option<String>,
-}
-
-/// The materials of the pieces, by name.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Pieces {
-    pub white: String,
-    pub black: String,
-}
-
 /// The clock beside the board.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Clock {
@@ -158,14 +188,6 @@ pub struct Clock {
     pub black: u32,
     /// The material of its case, by name.
     pub case: String,
-}
-
-/// How pictures look before any setting: a starting point for all of them.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Look {
-    /// The thesis's camera and lights, Phong's model, hard shadows, flat normals.
-    #[default]
-    Thesis,
 }
 
 impl Default for Config {
@@ -207,48 +229,6 @@ fn listed(faults: &[Fault]) -> String {
 }
 
 impl Config {
-    /// The settings of a look.
-    pub fn new(look: Look) -> Config {
-        let Look::Thesis = look;
-        Config {
-            width: 1000,
-            height: 600,
-            background: DVec3::ZERO,
-            snell_index: 1.5,
-            lights: vec![
-                Light { position: DVec3::new(0.0, 150.0, -50.0), color: DVec3::splat(0.8) },
-                Light { position: DVec3::new(90.0, 90.0, 20.0), color: DVec3::splat(0.5) },
-            ],
-            camera: Camera {
-                position: DVec3::new(45.0, 15.0, -30.0),
-                look_at: DVec3::new(14.0, 0.0, 14.0),
-                fov: 90.0,
-                z_rot: 0.0,
-            },
-            render: Render {
-                sampling: Sampling::Grid,
-                rays: 2,
-                threshold: 0.03,
-                max_depth: 5,
-                max_distance: FARTHEST,
-                subdivisions: 4,
-                normals: Normals::Flat,
-                filter: Filter::Nearest,
-                plain: false,
-            },
-            board: Board {
-                light: "light".to_owned(),
-                dark: "dark".to_owned(),
-                frame: "frame".to_owned(),
-                table: None,
-            },
-            pieces: Pieces { white: "white".to_owned(), black: "black".to_owned() },
-            clock: Clock { show: false, white: 0, black: 0, case: "frame".to_owned() },
-            models: Vec::new(),
-            materials: material::built_in(),
-        }
-    }
-
     /// Reads the text of a `config.ini`; what it does not mention keeps the value of `self`. Files
     /// that it names are sought from `folder` on.
     ///
@@ -283,14 +263,19 @@ impl Config {
         sections::show(self)
     }
 
+    /// What all parts are made of: the theme, and what stands over it.
+    pub fn scheme(&self) -> Scheme {
+        let theme = self.themes.get(&self.theme);
+        self.parts.over(theme.unwrap_or(&Parts::default())).scheme()
+    }
+
     /// The pictures of the materials that are used.
     pub fn bitmaps(&self) -> BTreeSet<&PathBuf> {
-        let Board { light, dark, frame, table } = &self.board;
-        let Pieces { white, black } = &self.pieces;
-        let clock = self.clock.show.then_some(&self.clock.case);
-        let models = self.models.iter().map(|model| &model.material);
-        let used = [light, dark, frame, white, black].into_iter().chain(table).chain(clock);
-        used.chain(models)
+        let theme = self.themes.get(&self.theme);
+        let parts = self.parts.over(theme.unwrap_or(&Parts::default()));
+        let case = self.clock.show.then_some(&self.clock.case);
+        let used = parts.materials().map(|(_, name)| name).chain(case);
+        used.chain(self.models.iter().map(|model| &model.material))
             .filter_map(|name| self.materials.get(name))
             .filter(|material| material.texture == Texture::Bitmap)
             .map(|material| &material.bitmap)

@@ -5,27 +5,29 @@ use std::path::Path;
 use super::ini::Section;
 use super::keys::{Key, Lines, key, read_section, show_section, unknown};
 use super::values::{
-    COLOR, Choice, Integer, Name, NameOrNone, Number, Optional, PLACE, Time, Triple, YES_NO,
+    Choice, ColorOrTransparent, Integer, Name, Number, Optional, PLACE, Time, Triple, YES_NO,
 };
 use super::{
-    Board, Camera, Clock, Config, FARTHEST, Fault, Filter, Finish, Light, MAX_RAYS, MAX_SIDE,
-    Mapping, Material, Model, Normals, Pieces, Render, SHORTEST, Sampling, Shape, Texture,
-    material, model,
+    Camera, Clock, Config, FARTHEST, Fault, Filter, Finish, Light, MAX_RAYS, MAX_SIDE, Mapping,
+    Material, Model, Normals, Render, Room, SHORTEST, Sampling, Shading, Shape, Texture,
+    material, model, theme,
 };
 
 const MAX_LIGHTS: u32 = 100;
 const MAX_MODELS: u32 = 1000;
 
-const SECTIONS: [&str; 9] = [
+const SECTIONS: [&str; 11] = [
     "GlobalSettings",
     "Camera",
     "Light0",
+    "Room",
     "Model0",
     "Render",
     "Board",
     "Pieces",
     "Clock",
     "Material white",
+    "Theme wood",
 ];
 
 /// `[GlobalSettings]`, with the two counts that only announce other sections.
@@ -36,10 +38,11 @@ struct Global {
     model_count: Option<u32>,
 }
 
-const GLOBAL_KEYS: [Key<Global>; 6] = [
+const GLOBAL_KEYS: [Key<Global>; 7] = [
     key!("ImageWidth", Global, config.width: Integer(1, MAX_SIDE)),
     key!("ImageHeight", Global, config.height: Integer(1, MAX_SIDE)),
-    key!("BackgroundColor", Global, config.background: COLOR),
+    key!("Theme", Global, config.theme: Name),
+    key!("BackgroundColor", Global, config.parts.background: Optional(ColorOrTransparent)),
     key!("LightCount", Global, light_count: Optional(Integer(0, MAX_LIGHTS))),
     key!("ModelCount", Global, model_count: Optional(Integer(0, MAX_MODELS))),
     key!("SnellIndex", Global, config.snell_index: Number(1.0, 5.0)),
@@ -52,10 +55,23 @@ const CAMERA_KEYS: [Key<Camera>; 4] = [
     key!("ZRot", Camera, z_rot: Number(-360.0, 360.0)),
 ];
 
-const LIGHT_KEYS: [Key<Light>; 2] =
-    [key!("Position", Light, position: PLACE), key!("Color", Light, color: Triple(0.0, 100.0))];
+const LIGHT_KEYS: [Key<Light>; 4] = [
+    key!("Position", Light, position: PLACE),
+    key!("Color", Light, color: Triple(0.0, 100.0)),
+    key!("Width", Light, width: Number(0.0, 1e6)),
+    key!("Height", Light, height: Number(0.0, 1e6)),
+];
 
-const RENDER_KEYS: [Key<Render>; 9] = [
+const ROOM_KEYS: [Key<Room>; 5] = [
+    key!("Horizon", Room, horizon: Triple(0.0, 100.0)),
+    key!("Sky", Room, sky: Triple(0.0, 100.0)),
+    key!("Zenith", Room, zenith: Triple(0.0, 100.0)),
+    key!("Bounce", Room, bounce: Number(0.0, 1.0)),
+    key!("LightsTurn", Room, turns: YES_NO),
+];
+
+const RENDER_KEYS: [Key<Render>; 10] = [
+    key!("Shading", Render, shading: SHADINGS),
     key!("Antialiasing", Render, sampling: SAMPLINGS),
     key!("Rays", Render, rays: Integer(1, MAX_RAYS)),
     key!("Threshold", Render, threshold: Number(0.0, 1.0)),
@@ -66,6 +82,9 @@ const RENDER_KEYS: [Key<Render>; 9] = [
     key!("Filter", Render, filter: FILTERS),
     key!("Plain", Render, plain: YES_NO),
 ];
+
+const SHADINGS: Choice<Shading> =
+    Choice(&[("phong", Shading::Phong), ("studio", Shading::Studio)]);
 
 const SAMPLINGS: Choice<Sampling> = Choice(&[
     ("none", Sampling::None),
@@ -80,16 +99,6 @@ const NORMALS: Choice<Normals> = Choice(&[("flat", Normals::Flat), ("smooth", No
 
 const FILTERS: Choice<Filter> =
     Choice(&[("nearest", Filter::Nearest), ("bilinear", Filter::Bilinear), ("mip", Filter::Mip)]);
-
-const BOARD_KEYS: [Key<Board>; 4] = [
-    key!("Light", Board, light: Name),
-    key!("Dark", Board, dark: Name),
-    key!("Frame", Board, frame: Name),
-    key!("Table", Board, table: NameOrNone),
-];
-
-const PIECES_KEYS: [Key<Pieces>; 2] =
-    [key!("White", Pieces, white: Name), key!("Black", Pieces, black: Name)];
 
 const CLOCK_KEYS: [Key<Clock>; 4] = [
     key!("Show", Clock, show: YES_NO),
@@ -133,11 +142,13 @@ pub fn interpret(
 ) -> Config {
     let mut global = Global { config: base, ..Global::default() };
     let mut camera_line = 0;
-    let mut count_lines = [0; 2];
     let mut lights: Vec<Numbered<Light>> = Vec::new();
     let mut models: Vec<Numbered<Model>> = Vec::new();
     let mut uses: Vec<Use> = Vec::new();
-    let [mut board_lines, mut pieces_lines, mut clock_lines] = [(); 3].map(|()| Lines::default());
+    let mut clock_lines = Lines::default();
+    let mut global_lines = Lines::default();
+    // The lines of a theme's parts, and of those that stand over all themes.
+    let mut part_lines: Vec<(Option<String>, Lines)> = Vec::new();
     let mut seen: Vec<String> = Vec::new();
     for section in document {
         let words: Vec<String> = section.name.split_whitespace().map(str::to_lowercase).collect();
@@ -150,8 +161,7 @@ pub fn interpret(
         let config = &mut global.config;
         match name.as_str() {
             "globalsettings" => {
-                let lines = read_section(section, &GLOBAL_KEYS, &mut global, faults);
-                count_lines = [lines.of("LightCount"), lines.of("ModelCount")];
+                global_lines = read_section(section, &GLOBAL_KEYS, &mut global, faults);
             }
             "camera" => {
                 camera_line = section.line;
@@ -160,11 +170,21 @@ pub fn interpret(
             "render" => {
                 read_section(section, &RENDER_KEYS, &mut config.render, faults);
             }
+            "room" => {
+                read_section(section, &ROOM_KEYS, &mut config.room, faults);
+            }
             "board" => {
-                board_lines = read_section(section, &BOARD_KEYS, &mut config.board, faults);
+                let lines = read_section(section, &theme::BOARD_KEYS, &mut config.parts, faults);
+                part_lines.push((None, lines));
             }
             "pieces" => {
-                pieces_lines = read_section(section, &PIECES_KEYS, &mut config.pieces, faults);
+                let lines = read_section(section, &theme::PIECES_KEYS, &mut config.parts, faults);
+                part_lines.push((None, lines));
+            }
+            _ if let Some(theme) = name.strip_prefix("theme ") => {
+                let parts = config.themes.entry(theme.to_owned()).or_default();
+                let lines = read_section(section, &theme::keys(), parts, faults);
+                part_lines.push((Some(theme.to_owned()), lines));
             }
             "clock" => {
                 clock_lines = read_section(section, &CLOCK_KEYS, &mut config.clock, faults);
@@ -210,27 +230,38 @@ pub fn interpret(
         }
     }
     if let Some(lights) =
-        counted("Light", light_count.zip(Some(count_lines[0])), MAX_LIGHTS, lights, faults)
+        counted("Light", light_count.zip(Some(global_lines.of("LightCount"))), MAX_LIGHTS, lights, faults)
     {
         config.lights = lights;
     }
     if let Some(models) =
-        counted("Model", model_count.zip(Some(count_lines[1])), MAX_MODELS, models, faults)
+        counted("Model", model_count.zip(Some(global_lines.of("ModelCount"))), MAX_MODELS, models, faults)
     {
         config.models = models;
     }
+    if !config.themes.contains_key(&config.theme) && !global_lines.failed("Theme") {
+        let known = config.themes.keys().map(String::as_str);
+        let message = format!("Theme: {}", unknown("theme", &config.theme, known));
+        faults.push(Fault { line: global_lines.of("Theme"), message });
+    }
     // What a file does not mention is used too, and may be of a material that it changes.
-    let Config { board: Board { light, dark, frame, table }, pieces, clock, .. } = &config;
-    uses.extend([
-        Use { of: Part::Square, ..board_lines.uses("Light", light) },
-        Use { of: Part::Square, ..board_lines.uses("Dark", dark) },
-        board_lines.uses("Frame", frame),
-        pieces_lines.uses("White", &pieces.white),
-        pieces_lines.uses("Black", &pieces.black),
-        clock_lines.uses("Case", &clock.case),
-    ]);
-    let on_table = |name: &String| Use { of: Part::Plane, ..board_lines.uses("Table", name) };
-    uses.extend(table.as_ref().map(on_table));
+    let part = |key: &str| match key {
+        "Light" | "Dark" => Part::Square,
+        "Table" => Part::Plane,
+        _ => Part::Body,
+    };
+    let themes = config.themes.iter().map(|(name, parts)| (Some(name), parts));
+    for (theme, parts) in themes.chain([(None, &config.parts)]) {
+        for (key, name) in parts.materials() {
+            let line = part_lines
+                .iter()
+                .filter(|(of, lines)| of.as_ref() == theme && lines.give(key))
+                .map(|(_, lines)| lines.of(key))
+                .next();
+            uses.push(Use { of: part(key), line: line.unwrap_or(0), key, name: name.clone() });
+        }
+    }
+    uses.push(clock_lines.uses("Case", &config.clock.case));
     for used in uses {
         check_use(&config, &used, faults);
     }
@@ -399,13 +430,17 @@ pub fn show(config: &Config) -> String {
     for (number, light) in config.lights.iter().enumerate() {
         show_section(&format!("Light{number}"), &LIGHT_KEYS, light, &mut out);
     }
+    show_section("Room", &ROOM_KEYS, &config.room, &mut out);
     show_section("Camera", &CAMERA_KEYS, &config.camera, &mut out);
     show_section("Render", &RENDER_KEYS, &config.render, &mut out);
-    show_section("Board", &BOARD_KEYS, &config.board, &mut out);
-    show_section("Pieces", &PIECES_KEYS, &config.pieces, &mut out);
+    show_section("Board", &theme::BOARD_KEYS, &config.parts, &mut out);
+    show_section("Pieces", &theme::PIECES_KEYS, &config.parts, &mut out);
     show_section("Clock", &CLOCK_KEYS, &config.clock, &mut out);
     for (number, model) in config.models.iter().enumerate() {
         show_section(&format!("Model{number}"), &model::KEYS, model, &mut out);
+    }
+    for (name, theme) in &config.themes {
+        show_section(&format!("Theme {name}"), &theme::keys(), theme, &mut out);
     }
     for (name, material) in &config.materials {
         show_section(&format!("Material {name}"), &material::KEYS, material, &mut out);

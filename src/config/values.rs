@@ -42,6 +42,9 @@ pub struct Optional<F>(pub F);
 /// A name, or the word `none`.
 pub struct NameOrNone;
 
+/// A colour, or the word `transparent`.
+pub struct ColorOrTransparent;
+
 /// A point of the world.
 pub const PLACE: Triple = Triple(-1e6, 1e6);
 
@@ -129,6 +132,19 @@ impl Format<Option<String>> for NameOrNone {
 
     fn show(&self, value: &Option<String>) -> Option<String> {
         Some(value.clone().unwrap_or_else(|| "none".to_owned()))
+    }
+}
+
+impl Format<Option<DVec3>> for ColorOrTransparent {
+    fn read(&self, text: &str) -> Result<Option<DVec3>, Expected> {
+        if text.eq_ignore_ascii_case("transparent") {
+            return Ok(None);
+        }
+        COLOR.read(text).map(Some).map_err(|expected| format!("{expected}, or transparent"))
+    }
+
+    fn show(&self, value: &Option<DVec3>) -> Option<String> {
+        value.map_or(Some("transparent".to_owned()), |color| COLOR.show(&color))
     }
 }
 

@@ -95,7 +95,7 @@ impl Writer<'_> {
             scene.max_depth + 1,
             scene.min_weight / FAINTER
         );
-        line!(self, "background {{ rgb {} }}", vector(scene.background));
+        line!(self, "background {{ rgb {} }}", vector(scene.background.unwrap_or_default()));
         line!(self, "camera {{");
         line!(self, "  perspective location {}", vector(scene.camera.position()));
         line!(self, "  right {} up {}", vector(right * across), vector(up * tall));
@@ -233,6 +233,9 @@ impl Writer<'_> {
     fn surface(&mut self, surface: &Surface) {
         match surface {
             Surface::Uniform(material) => self.material(material, 1, DAffine3::IDENTITY),
+            Surface::Board(joinery) => {
+                self.material(&joinery.materials[2], 1, DAffine3::IDENTITY);
+            }
             Surface::Chequer { origin, side, materials } => {
                 // What scales the chequer would scale the materials in it, too.
                 let place = DAffine3 {
@@ -276,6 +279,17 @@ impl Writer<'_> {
         let color = |color: DVec3| format!("rgb {} transmit {transparency}", vector(color));
         match texture {
             Texture::Plain(plain) => line!(self, "{pad}pigment {{ {} }}", color(*plain)),
+            Texture::Timber { colors: [ground, ring], ring: size, grain } => {
+                let stretch = match grain {
+                    Axis::X => DVec3::new(20.0, 1.0, 1.0),
+                    Axis::Y => DVec3::new(1.0, 20.0, 1.0),
+                    Axis::Z => DVec3::new(1.0, 1.0, 20.0),
+                } * *size;
+                line!(self, "{pad}pigment {{ bozo");
+                line!(self, "{pad}  color_map {{ [0 {}] [1 {}] }}", color(*ground), color(*ring));
+                line!(self, "{pad}  scale {}", vector(stretch));
+                line!(self, "{pad}}}");
+            }
             Texture::Wood { colors: [ring, ground], noise: Noise { size, octaves }, grain } => {
                 let stretch = match grain {
                     Axis::X => DVec3::new(20.0, 1.0, 1.0),
@@ -301,7 +315,7 @@ impl Writer<'_> {
                 line!(self, "{pad}  scale {size}");
                 line!(self, "{pad}}}");
             }
-            Texture::Bitmap { bitmap, mapping, filter } => {
+            Texture::Bitmap { bitmap, mapping, filter, .. } => {
                 let name = self.bitmap(bitmap);
                 let (kind, place) = laid(mapping);
                 let interpolate = match filter {

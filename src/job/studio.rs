@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use image::RgbImage;
+use image::DynamicImage;
 use serde::Serialize;
 
 use super::{JobError, shown};
@@ -70,7 +70,7 @@ impl<'a> Studio<'a> {
         })
     }
 
-    pub fn picture(&mut self, frame: &Frame) -> RgbImage {
+    pub fn picture(&mut self, frame: &Frame) -> DynamicImage {
         let scene = self.stage.scene(frame);
         let Config { width, height, .. } = self.settings.config;
         let mode = antialiasing(&self.settings.config.render);

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use image::RgbImage;
+use image::DynamicImage;
 
 use super::bmp::encode_bmp;
 use super::{OutputError, write_png, write_whole};
@@ -36,7 +36,7 @@ impl PictureFormat {
 /// When the file cannot be written.
 pub fn write_picture(
     path: &Path,
-    picture: &RgbImage,
+    picture: &DynamicImage,
     texts: &[(&str, String)],
 ) -> Result<(), OutputError> {
     match PictureFormat::of(path) {

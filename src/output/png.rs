@@ -1,9 +1,10 @@
 //! PNG with text chunks.
 
+use std::borrow::Cow;
 use std::io::{self, Write};
 use std::path::Path;
 
-use image::RgbImage;
+use image::DynamicImage;
 use png::{BitDepth, ColorType, Compression, Encoder};
 
 use super::{OutputError, write_whole};
@@ -13,9 +14,14 @@ use super::{OutputError, write_whole};
 ///
 /// # Errors
 /// What `out` gives.
-pub fn encode_png(picture: &RgbImage, texts: &[(&str, String)], out: impl Write) -> io::Result<()> {
+pub fn encode_png(picture: &DynamicImage, texts: &[(&str, String)], out: impl Write) -> io::Result<()> {
     let mut encoder = Encoder::new(out, picture.width(), picture.height());
-    encoder.set_color(ColorType::Rgb);
+    let (color, bytes) = match picture {
+        DynamicImage::ImageRgba8(picture) => (ColorType::Rgba, Cow::Borrowed(picture.as_raw())),
+        DynamicImage::ImageRgb8(picture) => (ColorType::Rgb, Cow::Borrowed(picture.as_raw())),
+        other => (ColorType::Rgb, Cow::Owned(other.to_rgb8().into_raw())),
+    };
+    encoder.set_color(color);
     encoder.set_depth(BitDepth::Eight);
     encoder.set_compression(Compression::Fast);
     for (keyword, text) in texts {
@@ -26,7 +32,7 @@ pub fn encode_png(picture: &RgbImage, texts: &[(&str, String)], out: impl Write)
         }
     }
     let mut writer = encoder.write_header()?;
-    writer.write_image_data(picture.as_raw())?;
+    writer.write_image_data(&bytes)?;
     writer.finish()?;
     Ok(())
 }
@@ -37,7 +43,7 @@ pub fn encode_png(picture: &RgbImage, texts: &[(&str, String)], out: impl Write)
 /// When the file cannot be written.
 pub fn write_png(
     path: &Path,
-    picture: &RgbImage,
+    picture: &DynamicImage,
     texts: &[(&str, String)],
 ) -> Result<(), OutputError> {
     write_whole(path, |out| encode_png(picture, texts, out))

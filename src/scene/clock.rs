@@ -9,7 +9,7 @@ use super::board::{DEPTH, MIDDLE};
 use super::material::{MaterialError, Materials};
 use super::{Mapping, Material, Object, Surface, Texture};
 use crate::assets::Bitmap;
-use crate::config::{self, Clock, Finish};
+use crate::config::{self, Clock, Coat, Finish};
 use crate::geometry::Cuboid;
 use crate::geometry::transform::sin_cos;
 
@@ -59,10 +59,12 @@ pub fn clock(clock: &Clock, materials: &Materials) -> Result<[Object; 2], Materi
             v: DVec3::Y * size.y,
         },
         filter,
+        linear: materials.is_linear(),
     };
+    let coat = Coat { coat: 1.5, roughness: 0.1, metal: false };
     Ok([
         Object::standing(CASE, materials.surface(&clock.case)?),
-        Object::standing(plate, Surface::Uniform(Material { finish, texture })),
+        Object::standing(plate, Surface::Uniform(Material { finish, coat, texture })),
     ])
 }
 

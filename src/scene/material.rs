@@ -6,18 +6,22 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
-use super::texture::Noise;
+use super::texture::{Noise, Place, linear_light};
+use super::board::Joinery;
 use super::{Mapping, Texture};
 use crate::assets::Bitmap;
-use crate::config::{self, Config, Finish};
+use crate::config::{self, Coat, Config, Finish, Shading};
 
 /// A colour: red, green and blue, 0 to 1 where it is shown.
 pub type Rgb = DVec3;
 
-/// A finish, and the colour at each point in the body's own space.
+/// How a surface answers light, and the colour at each point in the body's own space.
 #[derive(Clone, Debug)]
 pub struct Material {
+    /// What counts in Phong's sum; its transparency counts everywhere.
     pub finish: Finish,
+    /// What counts in the studio.
+    pub coat: Coat,
     pub texture: Texture,
 }
 
@@ -35,18 +39,23 @@ pub enum Surface {
         /// Where the sum of column and row is even, and where it is odd.
         materials: [Material; 2],
     },
+    /// A chessboard in its frame.
+    Board(Arc<Joinery>),
 }
 
 impl Surface {
-    /// The material at `point`, in the body's own space.
-    pub fn material(&self, point: DVec3) -> &Material {
-        match self {
+    /// The material at a place in the body's own space, and the place as it sees it.
+    pub fn material(&self, place: Place) -> (&Material, Place) {
+        let point = place.point;
+        let material = match self {
+            Surface::Board(joinery) => return joinery.material(place),
             Surface::Uniform(material) => material,
             Surface::Chequer { origin, side, materials } => {
                 let cell = ((DVec2::new(point.x, point.z) - origin) / side).floor();
                 &materials[usize::from((cell.x + cell.y).rem_euclid(2.0) >= 1.0)]
             }
-        }
+        };
+        (material, place)
     }
 
     /// Its materials.
@@ -54,6 +63,7 @@ impl Surface {
         match self {
             Surface::Uniform(material) => std::slice::from_ref(material),
             Surface::Chequer { materials, .. } => materials,
+            Surface::Board(joinery) => &joinery.materials,
         }
     }
 
@@ -82,9 +92,10 @@ impl Materials<'_> {
     /// The surface that settings call `name`.
     pub fn surface(&self, name: &str) -> Result<Surface, MaterialError> {
         let settings = self.settings(name)?;
-        let finish = settings.finish;
+        let config::Material { finish, coat, .. } = *settings;
         if settings.texture == config::Texture::Chequer {
-            let plain = |color| Material { finish, texture: Texture::Plain(color) };
+            let plain =
+                |color| Material { finish, coat, texture: Texture::Plain(self.color(color)) };
             return Ok(Surface::Chequer {
                 origin: DVec2::new(settings.origin.x, settings.origin.z),
                 side: settings.size,
@@ -98,10 +109,13 @@ impl Materials<'_> {
     pub fn material(&self, name: &str) -> Result<Material, MaterialError> {
         let settings = self.settings(name)?;
         let noise = Noise { size: settings.size, octaves: settings.octaves };
-        let colors = [settings.color, settings.second_color];
+        let colors = [settings.color, settings.second_color].map(|color| self.color(color));
         let texture = match settings.texture {
-            config::Texture::Plain | config::Texture::Chequer => Texture::Plain(settings.color),
+            config::Texture::Plain | config::Texture::Chequer => Texture::Plain(colors[0]),
             config::Texture::Wood => Texture::Wood { colors, noise, grain: settings.grain },
+            config::Texture::Timber => {
+                Texture::Timber { colors, ring: settings.size, grain: settings.grain }
+            }
             config::Texture::Marble => Texture::Marble { colors, noise },
             config::Texture::Bitmap => Texture::Bitmap {
                 bitmap: self
@@ -116,10 +130,21 @@ impl Materials<'_> {
                     v: settings.v,
                 },
                 filter: self.config.render.filter,
+                linear: self.is_linear(),
             },
         };
         let texture = if self.config.render.plain { texture.plain() } else { texture };
-        Ok(Material { finish: settings.finish, texture })
+        Ok(Material { finish: settings.finish, coat: settings.coat, texture })
+    }
+
+    /// Whether colours are linear light.
+    pub fn is_linear(&self) -> bool {
+        self.config.render.shading == Shading::Studio
+    }
+
+    /// A colour of the settings as light is summed up.
+    pub fn color(&self, written: DVec3) -> Rgb {
+        if self.is_linear() { linear_light(written) } else { written }
     }
 
     fn settings(&self, name: &str) -> Result<&config::Material, MaterialError> {
@@ -142,11 +167,12 @@ mod tests {
             side: 4.0,
             materials: [dark.clone(), light.clone()],
         };
-        let color = |material: &Material| material.texture.color(DVec3::ZERO, 0.0);
+        let at = |point| Place { point, seed: 0 };
+        let color = |material: &Material| material.texture.color(at(DVec3::ZERO), 0.0);
         for (file, rank, expected) in [(0, 0, &dark), (7, 0, &light), (0, 7, &light), (7, 7, &dark)]
         {
             let point = DVec3::new(f64::from(4 * file), 0.0, f64::from(4 * rank));
-            assert_eq!(color(board.material(point)), color(expected));
+            assert_eq!(color(board.material(at(point)).0), color(expected));
         }
     }
 }

@@ -11,14 +11,17 @@ mod mapping;
 mod material;
 mod models;
 mod noise;
+mod room;
 mod stage;
 mod texture;
+mod timber;
 
 pub use camera::Camera;
 pub use mapping::Mapping;
 pub use material::{Material, MaterialError, Rgb, Surface};
+pub use room::{Daylight, Room, Softbox};
 pub use stage::Stage;
-pub use texture::{Noise, Texture};
+pub use texture::{Noise, Place, Texture, linear_light};
 
 use crate::config::Light;
 use std::sync::Arc;
@@ -32,20 +35,22 @@ use crate::geometry::{Placed, Solid};
 pub struct Object {
     pub body: Placed,
     pub surface: Surface,
+    /// Which tree or block it is cut from.
+    pub seed: u64,
 }
 
 impl Object {
     /// A body where it was made.
     pub fn standing(solid: impl Solid + 'static, surface: Surface) -> Object {
-        Object { body: Placed::new(Arc::new(solid), DAffine3::IDENTITY), surface }
+        Object { body: Placed::new(Arc::new(solid), DAffine3::IDENTITY), surface, seed: 0 }
     }
 
-    /// The material at a `point` of the surface with the outward `normal`, and the point in the
-    /// body's own space. Both are those a hair below it: a flat face may be the very border
+    /// The material at a `point` of the surface with the outward `normal`, and the place as its
+    /// texture sees it. Both are those a hair below it: a flat face may be the very border
     /// between two squares or two pictures, where rounding would choose.
-    pub fn material(&self, point: DVec3, normal: DVec3) -> (&Material, DVec3) {
-        let own_point = self.body.own_point(point - normal * HAIR);
-        (self.surface.material(own_point), own_point)
+    pub fn material(&self, point: DVec3, normal: DVec3) -> (&Material, Place) {
+        let point = self.body.own_point(point - normal * HAIR);
+        self.surface.material(Place { point, seed: self.seed })
     }
 }
 
@@ -56,10 +61,14 @@ const HAIR: f64 = 1e-6;
 #[derive(Clone)]
 pub struct Scene {
     pub objects: Vec<Object>,
+    /// For Phong's sum.
     pub lights: Vec<Light>,
+    /// What gives the studio its light; without it, Phong's sum is what is seen.
+    pub room: Option<Room>,
     pub camera: Camera,
-    /// The colour of a ray that meets nothing.
-    pub background: Rgb,
+    /// The colour of a ray that meets nothing, as it is written to the picture; where there is none,
+    /// the picture is transparent.
+    pub background: Option<Rgb>,
     /// How often a ray may be reflected or refracted; beyond it is black.
     pub max_depth: u32,
     /// The least share of a pixel's colour, 0 to 1, that a ray is followed for.

@@ -24,7 +24,7 @@ pub fn model(model: &Model, materials: &Materials) -> Result<Object, MaterialErr
             let middle = model.min.midpoint(model.max);
             let place = translation(middle) * turn * translation(-middle);
             let block = Cuboid { min: model.min, max: model.max };
-            Object { body: Placed::new(Arc::new(block), place), surface }
+            Object { body: Placed::new(Arc::new(block), place), surface, seed: 0 }
         }
     })
 }

@@ -8,12 +8,13 @@ use super::board::{MIDDLE, SQUARE, board};
 use super::clock::clock;
 use super::material::{MaterialError, Materials};
 use super::models::model;
-use super::{Camera, Object, Rgb, Scene, Surface};
+use super::noise::hash;
+use super::{Camera, Object, Rgb, Room, Scene, Surface};
 use crate::assets::Assets;
-use crate::config::{Config, Light};
+use crate::config::{Config, Light, Shading};
 use crate::geometry::transform::translation;
 use crate::geometry::{Csg, Placed};
-use crate::notation::{Color, Piece, Role};
+use crate::notation::{Color, Piece, Role, Square};
 use crate::timeline::{Frame, Spot};
 
 /// A quarter of the least step that a picture can show. (Each surface of glass splits a ray in
@@ -34,7 +35,8 @@ pub struct Stage {
     fixed: Vec<Object>,
     lights: Vec<Light>,
     camera: Camera,
-    background: Rgb,
+    background: Option<Rgb>,
+    room: Option<Room>,
     max_depth: u32,
     max_distance: f64,
     snell_index: f64,
@@ -48,7 +50,8 @@ impl Stage {
     /// happens with settings that were read from a file.
     pub fn new(config: &Config, assets: &Assets) -> Result<Stage, MaterialError> {
         let materials = Materials { config, bitmaps: &assets.bitmaps };
-        let mut fixed = board(&config.board, &materials)?;
+        let scheme = config.scheme();
+        let mut fixed = board(&scheme, &materials)?;
         if config.clock.show {
             fixed.extend(clock(&config.clock, &materials)?);
         }
@@ -59,13 +62,15 @@ impl Stage {
         Ok(Stage {
             pieces: [set.pawn, set.knight, set.bishop, set.rook, set.queen, set.king].map(Arc::new),
             surfaces: [
-                materials.surface(&config.pieces.white)?,
-                materials.surface(&config.pieces.black)?,
+                materials.surface(&scheme.white)?,
+                materials.surface(&scheme.black)?,
             ],
             fixed,
             lights: config.lights.clone(),
             camera: Camera::new(&config.camera),
-            background: config.background,
+            background: scheme.background,
+            room: (config.render.shading == Shading::Studio)
+                .then(|| Room::new(&config.room, &config.lights, 0.0)),
             max_depth: config.render.max_depth,
             max_distance: config.render.max_distance,
             snell_index: config.snell_index,
@@ -74,14 +79,17 @@ impl Stage {
 
     /// What `frame` shows.
     pub fn scene(&self, frame: &Frame) -> Scene {
-        let standing =
-            frame.placement.iter().map(|(square, piece)| self.object(piece, Spot::on(square)));
-        let moving = frame.movers.iter().map(|mover| self.object(mover.piece, mover.spot));
+        let standing = frame.placement.iter().map(|(square, piece)| {
+            self.object(piece, frame.identities.get(square), Spot::on(square))
+        });
+        let moving =
+            frame.movers.iter().map(|mover| self.object(mover.piece, mover.identity, mover.spot));
         Scene {
             objects: self.fixed.iter().cloned().chain(standing).chain(moving).collect(),
             lights: self.lights.clone(),
             camera: self.camera.orbited(MIDDLE, frame.orbit),
             background: self.background,
+            room: self.room.clone(),
             max_depth: self.max_depth,
             min_weight: MIN_WEIGHT,
             max_distance: self.max_distance,
@@ -89,7 +97,8 @@ impl Stage {
         }
     }
 
-    fn object(&self, piece: Piece, spot: Spot) -> Object {
+    /// A piece on its spot. Its grain is that of its identity; in the thesis all are of one tree.
+    fn object(&self, piece: Piece, identity: Square, spot: Spot) -> Object {
         let solid = match piece.role {
             Role::Pawn => 0,
             Role::Knight => 1,
@@ -106,6 +115,7 @@ impl Stage {
                 Color::Black => 1,
             }]
             .clone(),
+            seed: if self.room.is_some() { hash(1, identity.to_usize() as u64) } else { 0 },
         }
     }
 }

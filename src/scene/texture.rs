@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::{DVec3, Vec3Swizzles};
 
 use super::noise::fractal;
-use super::{Mapping, Rgb};
+use super::{Mapping, Rgb, timber};
 use crate::assets::{Beyond, Bitmap};
 use crate::config::{self, Axis, Filter};
 
@@ -23,14 +23,32 @@ pub enum Texture {
         /// The direction that it grew in.
         grain: Axis,
     },
+    /// Wood of a tree of its own.
+    Timber {
+        /// The ground, and the darkest of a ring.
+        colors: [Rgb; 2],
+        /// World units from ring to ring.
+        ring: f64,
+        /// The direction that it grew in.
+        grain: Axis,
+    },
     /// Veins of marble.
     Marble {
         /// The ground, and the veins.
         colors: [Rgb; 2],
         noise: Noise,
     },
-    /// A picture.
-    Bitmap { bitmap: Arc<Bitmap>, mapping: Mapping, filter: Filter },
+    /// A picture; its colours are as they are written, or as linear light.
+    Bitmap { bitmap: Arc<Bitmap>, mapping: Mapping, filter: Filter, linear: bool },
+}
+
+/// A point as a texture sees it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// In the body's own space.
+    pub point: DVec3,
+    /// Which tree or block the body is cut from.
+    pub seed: u64,
 }
 
 /// A sum of octaves of gradient noise.
@@ -42,8 +60,9 @@ pub struct Noise {
 }
 
 impl Texture {
-    /// The colour at `point`, where a width of `seen` world units is seen at once.
-    pub fn color(&self, point: DVec3, seen: f64) -> Rgb {
+    /// The colour at `place`, where a width of `seen` world units is seen at once.
+    pub fn color(&self, place: Place, seen: f64) -> Rgb {
+        let Place { point, seed } = place;
         match self {
             Texture::Plain(color) => *color,
             Texture::Wood { colors, noise, grain } => {
@@ -54,17 +73,27 @@ impl Texture {
                 };
                 colors[0].lerp(colors[1], wood(along / noise.size, noise.octaves))
             }
-            Texture::Marble { colors, noise } => {
-                colors[0].lerp(colors[1], marble(point / noise.size, noise.octaves))
+            Texture::Timber { colors, ring, grain } => {
+                let along = match grain {
+                    Axis::X => point.yzx(),
+                    Axis::Y => point.zxy(),
+                    Axis::Z => point,
+                };
+                colors[0].lerp(colors[1], timber::shade(along / ring, seed, seen / ring))
             }
-            Texture::Bitmap { bitmap, mapping, filter } => {
+            Texture::Marble { colors, noise } => {
+                let block = DVec3::new(7.1, 3.3, 5.7) * (seed % 1024) as f64;
+                colors[0].lerp(colors[1], marble(point / noise.size + block, noise.octaves))
+            }
+            Texture::Bitmap { bitmap, mapping, filter, linear } => {
                 let (place, scale) = mapping.place(point);
                 let texels = (scale * bitmap.size()).max_element() * seen;
                 let beyond = match mapping.kind {
                     config::Mapping::Spherical => Beyond::Stays,
                     config::Mapping::Planar | config::Mapping::Cylindrical => Beyond::Repeats,
                 };
-                bitmap.color(place, *filter, beyond, texels)
+                let color = bitmap.color(place, *filter, beyond, texels);
+                if *linear { linear_light(color) } else { color }
             }
         }
     }
@@ -74,6 +103,9 @@ impl Texture {
         match self {
             // A ring has all its shades in equal shares.
             Texture::Wood { colors, .. } => Texture::Plain(colors[0].lerp(colors[1], 0.5)),
+            Texture::Timber { colors, .. } => {
+                Texture::Plain(colors[0].lerp(colors[1], timber::MEAN))
+            }
             Texture::Marble { colors, .. } => {
                 Texture::Plain(colors[0].lerp(colors[1], MARBLE_MEAN))
             }
@@ -100,9 +132,26 @@ fn marble(point: DVec3, octaves: u32) -> f64 {
 /// The mean of (1 − |sin|)².
 const MARBLE_MEAN: f64 = 1.5 - 4.0 / PI;
 
+/// A colour as it is written to a picture (sRGB, each channel 0 to 1), as linear light (IEC
+/// 61966-2-1).
+pub fn linear_light(color: Rgb) -> Rgb {
+    let linear = |channel: f64| {
+        if channel <= 0.04045 {
+            channel / 12.92
+        } else {
+            libm::pow((channel + 0.055) / 1.055, 2.4)
+        }
+    };
+    Rgb::from_array(color.to_array().map(linear))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn at(point: DVec3) -> Place {
+        Place { point, seed: 0 }
+    }
 
     const BLACK_AND_WHITE: [Rgb; 2] = [DVec3::ZERO, DVec3::ONE];
 
@@ -111,7 +160,7 @@ mod tests {
         let mut sum = 0.0;
         for step in 0..200_000 {
             let t = f64::from(step);
-            sum += texture.color(DVec3::new(0.37 * t, -0.71 * t, 0.13 * t), 0.0).x;
+            sum += texture.color(at(DVec3::new(0.37 * t, -0.71 * t, 0.13 * t)), 0.0).x;
         }
         sum / 200_000.0
     }
@@ -137,7 +186,7 @@ mod tests {
             for step in 0..2000 {
                 let point = DVec3::new(0.37, -0.71, 0.13) * f64::from(step);
                 let change = |by: DVec3| {
-                    let change = (wood.color(point + by, 0.0) - wood.color(point, 0.0)).x.abs();
+                    let change = (wood.color(at(point + by), 0.0) - wood.color(at(point), 0.0)).x.abs();
                     change.min(1.0 - change)
                 };
                 lengthways += change(along * 0.05);

@@ -32,6 +32,13 @@ impl Footprint {
         self.light += (light * weight).as_vec3();
     }
 
+    /// Whether the ray from the camera met nothing at all.
+    pub fn is_of_nothing(&self) -> bool {
+        let mut nothing = Footprint::default();
+        nothing.meet_nothing();
+        *self == nothing
+    }
+
     fn meet_object(&mut self, object: u64) {
         // Steps of a hash: FNV's, by whole numbers.
         self.objects = (self.objects ^ object.wrapping_add(1)).wrapping_mul(0x0000_0100_0000_01B3);

@@ -1,0 +1,137 @@
+//! The studio's pictures: many samples a pixel, and more where they disagree.
+
+use image::DynamicImage;
+
+use super::canvas::{Canvas, Pixel};
+use super::sequence::Sequence;
+use super::studio::{Glimpse, Studio};
+use super::{Antialiasing, RayCounts, tone};
+use crate::scene::{Rgb, Room, Scene};
+
+/// Where in the pixel a sample goes through.
+const PLACE: u32 = 0;
+
+/// One bright sample among dark ones counts no more than this: fine highlights do not flicker.
+const BRIGHTEST: f64 = 4.0;
+
+/// Traces `scene` as [`super::render`] does, in the light of `room`. Of a grid the number of rays
+/// alone counts; adaptive, a pixel begins with a quarter of them, and goes on while the error of
+/// its mean seems greater than the threshold.
+pub fn render(
+    scene: &Scene,
+    room: &Room,
+    width: u32,
+    height: u32,
+    mode: Antialiasing,
+) -> (DynamicImage, RayCounts) {
+    let (first, most, error) = match mode {
+        Antialiasing::None => (1, 1, 0.0),
+        Antialiasing::Grid(side) => (side * side, side * side, 0.0),
+        Antialiasing::Adaptive { rays, threshold } => {
+            ((rays * rays / 4).max(1), rays * rays, f64::from(threshold))
+        }
+    };
+    let exposure = Exposure {
+        studio: Studio::new(scene, room),
+        scene,
+        size: [width, height],
+        first,
+        most,
+        error,
+    };
+    let mut picture = Canvas::new(width, height, scene.background.is_none());
+    let rows = 0..height as usize;
+    let counts =
+        picture.paint(rows, |x, y, counts| exposure.pixel(x as u32, y as u32, counts));
+    (picture.into_picture(), counts)
+}
+
+struct Exposure<'a> {
+    studio: Studio<'a>,
+    scene: &'a Scene,
+    size: [u32; 2],
+    /// Samples of a pixel at first, and at most.
+    first: u32,
+    most: u32,
+    /// The error of a pixel's mean that is small enough, of what can be shown.
+    error: f64,
+}
+
+/// The samples of a pixel so far.
+#[derive(Default)]
+struct Sum {
+    count: u32,
+    light: Rgb,
+    cover: f64,
+    /// Of how bright samples look, and of its square.
+    shown: f64,
+    squares: f64,
+}
+
+impl Exposure<'_> {
+    fn pixel(&self, x: u32, y: u32, counts: &mut RayCounts) -> Pixel {
+        let mut sum = Sum::default();
+        let mut wanted = self.first;
+        loop {
+            for index in sum.count..wanted {
+                sum.add(self.sample(x, y, index, counts));
+            }
+            if wanted >= self.most || sum.error() <= self.error {
+                return self.developed(&sum);
+            }
+            wanted = (2 * wanted).min(self.most);
+        }
+    }
+
+    fn sample(&self, x: u32, y: u32, index: u32, counts: &mut RayCounts) -> Glimpse {
+        let numbers = Sequence::new(x, y, index);
+        let (dx, dy) = if self.most == 1 { (0.5, 0.5) } else { numbers.pair(PLACE) };
+        let [width, height] = self.size;
+        let camera = &self.scene.camera;
+        let ray = camera.ray(f64::from(x) + dx, f64::from(y) + dy, width, height);
+        let across = f64::from(self.first).sqrt().min(4.0);
+        let spread = camera.width() / (f64::from(width) * across);
+        let Glimpse { light, cover } = self.studio.trace(ray, spread, &numbers, counts);
+        Glimpse { light: light.min(Rgb::splat(BRIGHTEST)), cover }
+    }
+
+    /// What the samples show: their light through the tone curve, over the background.
+    fn developed(&self, sum: &Sum) -> Pixel {
+        let cover = sum.cover / f64::from(sum.count);
+        if cover == 0.0 {
+            return self.over_background(Pixel::default());
+        }
+        let color = tone::stored(tone::neutral(sum.light / sum.cover));
+        self.over_background(Pixel { color: color * cover, cover })
+    }
+
+    fn over_background(&self, pixel: Pixel) -> Pixel {
+        match self.scene.background {
+            Some(background) => {
+                Pixel { color: pixel.color + background * (1.0 - pixel.cover), cover: 1.0 }
+            }
+            None => pixel,
+        }
+    }
+}
+
+impl Sum {
+    fn add(&mut self, Glimpse { light, cover }: Glimpse) {
+        self.count += 1;
+        self.light += light * cover;
+        self.cover += cover;
+        // A square root is near enough to how bright it will look.
+        let shown = light.dot(Rgb::splat(1.0 / 3.0)).clamp(0.0, 1.0).sqrt() * cover;
+        self.shown += shown;
+        self.squares += shown * shown;
+    }
+
+    /// The standard error of how bright the mean looks, as of samples that know nothing of each
+    /// other; these are more even, and err less.
+    fn error(&self) -> f64 {
+        let count = f64::from(self.count);
+        let mean = self.shown / count;
+        let variance = (self.squares / count - mean * mean).max(0.0);
+        (variance / (count - 1.0).max(1.0)).sqrt()
+    }
+}

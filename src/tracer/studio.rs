@@ -1,0 +1,341 @@
+//! Soft light: a coloured ground under a clear coat, in a room with softboxes and a sky.
+//!
+//! Every sample of a pixel asks each softbox at one point, the sky in one direction, and the mirror in
+//! one. What nothing stands in the way of is known without samples, so a plain that sees the whole
+//! sky has no noise.
+
+use std::f64::consts::TAU;
+
+use glam::DVec3;
+
+use super::RayCounts;
+use super::optics::{facing, fresnel, grazing, mirrored, refracted};
+use super::sequence::Sequence;
+use super::world::{OFFSET, World};
+use crate::geometry::Ray;
+use crate::scene::{Material, Rgb, Room, Scene, linear_light};
+
+/// How much of its light a ground under a coat throws back, of what its colour says.
+const GROUND: f64 = 0.9;
+
+/// What is seen at second hand is lit by all softboxes, but asks for shadows only where it counts as
+/// much as this in the pixel.
+const SHADOWS_FROM: f64 = 0.06;
+
+/// Of the sky that a surface seen at second hand faces, so much is taken to be free.
+const FREE_SKY: f64 = 0.75;
+
+/// Rays in a mirror are followed when they count as much as this; fainter ones see the room.
+const MIRRORS_FROM: f64 = 0.02;
+
+/// What has no end melts into the background, from the first of these distances from the origin of
+/// the world to the second.
+const MELTS: [f64; 2] = [70.0, 260.0];
+
+/// What numbers are for.
+mod purpose {
+    pub const SKY: u32 = 2;
+    pub const MIRROR: u32 = 3;
+    pub const SOFTBOX: u32 = 8;
+    /// Between the numbers of one reflection and the next.
+    pub const STEP: u32 = 256;
+}
+
+/// The studio's eye on a world.
+pub struct Studio<'a> {
+    world: World<'a>,
+    room: &'a Room,
+    /// What is seen through glass where there is nothing.
+    background: Rgb,
+}
+
+/// What a single ray from the camera brings back: linear light, and how much of the background it
+/// hides.
+#[derive(Clone, Copy, Default)]
+pub struct Glimpse {
+    pub light: Rgb,
+    pub cover: f64,
+}
+
+/// A ray on its way.
+struct Flight {
+    ray: Ray,
+    /// How often it was reflected or refracted.
+    depth: u32,
+    /// How far it has come from the camera.
+    length: f64,
+    /// Its share of the pixel's colour.
+    weight: f64,
+    /// The refractive index of what it is in.
+    index: f64,
+    /// The width that it stands for at distance 1.
+    spread: f64,
+}
+
+/// A place where a ray meets a surface.
+struct Meeting<'a> {
+    point: DVec3,
+    /// Just outside.
+    leaving: DVec3,
+    /// Out of the surface itself, and of what it is shaded as, on the ray's side.
+    outward: DVec3,
+    normal: DVec3,
+    material: &'a Material,
+    color: Rgb,
+}
+
+impl<'a> Studio<'a> {
+    pub fn new(scene: &'a Scene, room: &'a Room) -> Studio<'a> {
+        let background = linear_light(scene.background.unwrap_or(Rgb::splat(0.8)));
+        Studio { world: World::new(scene), room, background }
+    }
+
+    /// What comes back along a ray from the camera, which stands for a width of `spread` at
+    /// distance 1.
+    pub fn trace(
+        &self,
+        ray: Ray,
+        spread: f64,
+        numbers: &Sequence,
+        counts: &mut RayCounts,
+    ) -> Glimpse {
+        counts.primary += 1;
+        let index = self.world.index_at(ray.origin);
+        let flight = Flight { ray, depth: 0, length: 0.0, weight: 1.0, index, spread };
+        let Some((object, hit)) = self.world.nearest(&ray) else {
+            return Glimpse::default();
+        };
+        let light = self.light(&flight, object, hit, numbers, counts);
+        let body = &self.world.scene.objects[object].body;
+        let is_endless = !crate::geometry::Solid::bounds(body).is_finite();
+        let cover = if is_endless { 1.0 - melted(ray.at(hit.t)) } else { 1.0 };
+        Glimpse { light, cover }
+    }
+
+    /// The light that comes back along a ray that met something, or nothing.
+    fn radiance(&self, flight: &Flight, numbers: &Sequence, counts: &mut RayCounts) -> Rgb {
+        match self.world.nearest(&flight.ray) {
+            Some((object, hit)) => self.light(flight, object, hit, numbers, counts),
+            None => self.background,
+        }
+    }
+
+    /// The light from a hit.
+    fn light(
+        &self,
+        flight: &Flight,
+        object: usize,
+        hit: crate::geometry::Hit,
+        numbers: &Sequence,
+        counts: &mut RayCounts,
+    ) -> Rgb {
+        let object = &self.world.scene.objects[object];
+        let ray = &flight.ray;
+        let point = ray.at(hit.t);
+        let (material, place) = object.material(point, hit.normal);
+        let (outward, normal) = facing(hit, ray.direction);
+        let seen = (flight.length + hit.t) * flight.spread;
+        let meeting = Meeting {
+            point,
+            leaving: point + outward * OFFSET,
+            outward,
+            normal,
+            material,
+            color: material.texture.color(place, seen),
+        };
+        let cosine = -ray.direction.dot(normal);
+        if material.finish.transparency > 0.0 {
+            return self.glass(flight, &meeting, hit.t, numbers, counts);
+        }
+        let coat = &material.coat;
+        if coat.metal {
+            let share = meeting.color.lerp(Rgb::ONE, grazing(cosine));
+            return self.mirror(flight, &meeting, hit.t, share, numbers, counts);
+        }
+        let ground = meeting.color * GROUND * self.gathered(flight, &meeting, numbers, counts);
+        if coat.coat <= 1.0 {
+            return ground;
+        }
+        // A rough coat has no grazing glare: part of it is always seen from its side.
+        let share = fresnel(cosine, coat.coat) * (1.0 - 0.5 * coat.roughness);
+        let above = self.mirror(flight, &meeting, hit.t, Rgb::splat(share), numbers, counts);
+        ground * (1.0 - share) + above
+    }
+
+    /// The light that falls on a surface, as seen on white.
+    fn gathered(
+        &self,
+        flight: &Flight,
+        meeting: &Meeting,
+        numbers: &Sequence,
+        counts: &mut RayCounts,
+    ) -> Rgb {
+        let from = flight.depth * purpose::STEP;
+        let mut sum = Rgb::ZERO;
+        for (number, softbox) in self.room.softboxes.iter().enumerate() {
+            let pair = numbers.pair(from + purpose::SOFTBOX + number as u32);
+            let towards = softbox.point(pair) - meeting.leaving;
+            let distance = towards.length();
+            let towards = towards / distance;
+            let cosine = meeting.normal.dot(towards);
+            if cosine <= 0.0 || meeting.outward.dot(towards) <= 0.0 {
+                continue;
+            }
+            let mut light = softbox.color * cosine;
+            if flight.weight >= SHADOWS_FROM {
+                counts.shadow += 1;
+                let way = Ray { origin: meeting.leaving, direction: towards };
+                light *= self.world.transmission(&way, distance);
+            }
+            sum += light;
+        }
+        sum + self.daylight(flight, meeting, numbers.pair(from + purpose::SKY), counts)
+    }
+
+    /// What comes from the sky, and from other surfaces that hide it.
+    fn daylight(
+        &self,
+        flight: &Flight,
+        meeting: &Meeting,
+        pair: (f64, f64),
+        counts: &mut RayCounts,
+    ) -> Rgb {
+        let sky = self.room.daylight(meeting.normal);
+        if flight.depth > 0 {
+            return sky.brightness * (sky.share * FREE_SKY);
+        }
+        let direction = scattered(meeting.normal, pair);
+        if direction.dot(meeting.outward) <= 0.0 {
+            return Rgb::ZERO;
+        }
+        counts.shadow += 1;
+        let way = Ray { origin: meeting.leaving, direction };
+        match self.world.nearest(&way) {
+            None if direction.y > 0.0 => sky.brightness,
+            None => Rgb::ZERO,
+            Some((index, hit)) => {
+                let object = &self.world.scene.objects[index];
+                let (material, place) = object.material(way.at(hit.t), hit.normal);
+                let seen = (flight.length + hit.t) * flight.spread + 0.2 * hit.t;
+                if material.finish.transparency > 0.0 {
+                    return sky.brightness * material.finish.transparency;
+                }
+                material.texture.color(place, seen) * self.room.bounce
+            }
+        }
+    }
+
+    /// The share of a mirror image.
+    fn mirror(
+        &self,
+        flight: &Flight,
+        meeting: &Meeting,
+        distance: f64,
+        share: Rgb,
+        numbers: &Sequence,
+        counts: &mut RayCounts,
+    ) -> Rgb {
+        let roughness = meeting.material.coat.roughness;
+        let exact = mirrored(flight.ray.direction, meeting.normal, meeting.outward);
+        let weight = flight.weight * share.max_element();
+        if weight >= MIRRORS_FROM && flight.depth < self.world.scene.max_depth {
+            let from = flight.depth * purpose::STEP;
+            let blurred = (exact + ball(numbers.pair(from + purpose::MIRROR)) * roughness).normalize();
+            let direction = if blurred.dot(meeting.outward) > 0.0 { blurred } else { exact };
+            let ray = Ray { origin: meeting.leaving, direction };
+            counts.reflected += 1;
+            if let Some((object, hit)) = self.world.nearest(&ray) {
+                let next = Flight {
+                    ray,
+                    depth: flight.depth + 1,
+                    length: flight.length + distance,
+                    weight,
+                    index: flight.index,
+                    spread: flight.spread + roughness,
+                };
+                return share * self.light(&next, object, hit, numbers, counts);
+            }
+        }
+        // Softboxes are blurred as a whole, not by samples.
+        share * self.room.radiance(meeting.point, exact, roughness)
+    }
+
+    /// What is seen in glass, and through it.
+    fn glass(
+        &self,
+        flight: &Flight,
+        meeting: &Meeting,
+        distance: f64,
+        numbers: &Sequence,
+        counts: &mut RayCounts,
+    ) -> Rgb {
+        let finish = &meeting.material.finish;
+        let behind = meeting.point - meeting.outward * OFFSET;
+        let index = self.world.index_at(behind);
+        let ratio = flight.index / index;
+        let direction = flight.ray.direction;
+        let cosine = -direction.dot(meeting.normal);
+        let bent = refracted(direction, meeting.normal, ratio);
+        let share = match bent {
+            None => 1.0,
+            // On the way out the angle that counts is the one outside.
+            Some(bent) if ratio > 1.0 => fresnel(-bent.dot(meeting.normal), ratio),
+            Some(_) if ratio == 1.0 => 0.0,
+            Some(_) => fresnel(cosine, 1.0 / ratio),
+        };
+        let mut sum = Rgb::ZERO;
+        if share > 0.0 {
+            sum += self.mirror(flight, meeting, distance, Rgb::splat(share), numbers, counts);
+        }
+        let Some(bent) = bent else {
+            return sum;
+        };
+        let share = (1.0 - share) * finish.transparency;
+        let next = Flight {
+            ray: Ray { origin: behind, direction: bent },
+            depth: flight.depth + 1,
+            length: flight.length + distance,
+            weight: flight.weight * share,
+            index,
+            spread: flight.spread,
+        };
+        // Each of a body's two surfaces takes half of what its colour takes.
+        let tint = Rgb::from_array(meeting.color.to_array().map(f64::sqrt));
+        if next.depth <= self.world.scene.max_depth && next.weight >= self.world.scene.min_weight {
+            counts.refracted += 1;
+            sum += tint * self.radiance(&next, numbers, counts) * share;
+        } else {
+            sum += tint * self.room.radiance(meeting.point, bent, 1.0) * share;
+        }
+        let clouded = 1.0 - finish.transparency;
+        if clouded > 0.0 && flight.depth == 0 {
+            sum += meeting.color * clouded * self.gathered(flight, meeting, numbers, counts);
+        }
+        sum
+    }
+}
+
+/// How much of an endless body has melted into the background at `point`, 0 to 1.
+fn melted(point: DVec3) -> f64 {
+    let t = ((point.length() - MELTS[0]) / (MELTS[1] - MELTS[0])).clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
+/// A direction round `normal`, by the cosine.
+fn scattered(normal: DVec3, pair: (f64, f64)) -> DVec3 {
+    (normal + sphere(pair)).try_normalize().unwrap_or(normal)
+}
+
+/// A point on the sphere of radius 1.
+fn sphere((u, v): (f64, f64)) -> DVec3 {
+    let y = 1.0 - 2.0 * u;
+    let radius = (1.0 - y * y).max(0.0).sqrt();
+    let (sin, cos) = libm::sincos(TAU * v);
+    DVec3::new(radius * cos, y, radius * sin)
+}
+
+/// A point in the ball of radius 1, more likely near its middle.
+fn ball((u, v): (f64, f64)) -> DVec3 {
+    // The golden ratio parts u from what it is used for a second time.
+    sphere((u, v)) * (u * 1.618_033_988_749_895 * 8.0).fract()
+}

@@ -1,0 +1,65 @@
+//! From linear light to what a picture stores.
+
+use crate::scene::Rgb;
+
+/// From here on the curve bends.
+const SHOULDER: f64 = 0.76;
+
+/// How fast the brightest grow pale.
+const PALING: f64 = 0.15;
+
+/// Light as a screen can show it: colours stay as they are up to the shoulder, what is brighter
+/// tends to white (*Khronos PBR Neutral Tone Mapper*, 2024). It takes away the 4 % of white that a
+/// coat adds in a bright room.
+pub fn neutral(light: Rgb) -> Rgb {
+    let least = light.min_element().max(0.0);
+    let veil = if least < 0.08 { least - 6.25 * least * least } else { 0.04 };
+    let color = light - veil;
+    let peak = color.max_element();
+    if peak < SHOULDER {
+        return color;
+    }
+    let room = 1.0 - SHOULDER;
+    let bent = 1.0 - room * room / (peak + room - SHOULDER);
+    let pale = 1.0 - 1.0 / (PALING * (peak - bent) + 1.0);
+    (color * (bent / peak)).lerp(Rgb::splat(bent), pale)
+}
+
+/// Linear light as sRGB stores it, each channel 0 to 1 (IEC 61966-2-1).
+pub fn stored(light: Rgb) -> Rgb {
+    let stored = |channel: f64| {
+        if channel <= 0.003_130_8 {
+            12.92 * channel.max(0.0)
+        } else {
+            1.055 * libm::pow(channel.min(1.0), 1.0 / 2.4) - 0.055
+        }
+    };
+    Rgb::from_array(light.to_array().map(stored))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::linear_light;
+
+    #[test]
+    fn storing_is_the_inverse_of_reading() {
+        for step in 0..=255 {
+            let color = Rgb::splat(f64::from(step) / 255.0);
+            assert!(stored(linear_light(color)).distance(color) < 1e-6, "{step}");
+        }
+    }
+
+    #[test]
+    fn the_curve_rises_keeps_base_colors_and_never_burns_out() {
+        let mut last = -1.0;
+        for step in 0..2000 {
+            let light = f64::from(step) * 0.01;
+            let shown = neutral(Rgb::new(light, light * 0.8, light * 0.5));
+            assert!(shown.x >= last && shown.max_element() < 1.0, "{light}");
+            last = shown.x;
+        }
+        let base = neutral(Rgb::new(0.6, 0.45, 0.2));
+        assert!(base.distance(Rgb::new(0.56, 0.41, 0.16)) < 1e-12);
+    }
+}
