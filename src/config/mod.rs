@@ -10,6 +10,7 @@ mod nearest;
 mod sections;
 mod values;
 
+pub(crate) use keys::unknown;
 pub use material::{Axis, Finish, Mapping, Material, Texture};
 pub use model::{Model, Shape};
 pub use nearest::nearest;
