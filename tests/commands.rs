@@ -64,6 +64,8 @@ fn the_thesis_command_line_gives_its_bmp() {
         "2",
         "--ssrays",
         "3",
+        "--set",
+        "thesis",
     ];
     let (code, _, stderr) = run(here, &[&today[..], &["-o", "b.png"]].concat());
     assert_eq!(code, 0, "{stderr}");
@@ -116,7 +118,16 @@ fn bad_thesis_lines_and_settings_get_a_sentence() {
             1,
             "bitmap.ini: line 3: the picture `broken.png` cannot be read (",
         ),
-        (&["diagram", "--white", "KE1", "--set", "staunton"], 2, "[possible values: thesis]"),
+        (
+            &["diagram", "--white", "KE1", "--set", "stauton"],
+            2,
+            "there is no set or folder `stauton`, did you mean `staunton`?",
+        ),
+        (
+            &["diagram", "--white", "KE1", "--set", "."],
+            1,
+            "./set.toml: no such file, expected the files of a set: set.toml, pawn.toml",
+        ),
         (&["diagram", "--white", "KE1", "--aa", "3"], 2, "[possible values: none, grid, adaptive]"),
         (&["diagram", "--white", "KE1", "--ssrays", "0"], 2, "a whole number from 1 to 32"),
         (

@@ -1,7 +1,7 @@
 //! What rays find in solids, held against a question that needs no rays: is this point inside?
 
 use glam::{DVec2, DVec3};
-use lightsquare::assets::{PieceSet, thesis_set};
+use lightsquare::assets::{PieceSet, SetName, piece_set};
 use lightsquare::geometry::transform::{rotation_x, rotation_y, rotation_z, scale, translation};
 use lightsquare::geometry::{
     ControlPoint, Csg, Cuboid, Interval, Lathe, Normals, Outline, Plane, Prism, Profile, Ray,
@@ -10,9 +10,11 @@ use lightsquare::geometry::{
 use proptest::prelude::*;
 use std::sync::LazyLock;
 
-static SET: LazyLock<PieceSet> = LazyLock::new(|| thesis_set(4, Normals::Flat).unwrap());
+static THESIS: LazyLock<PieceSet> =
+    LazyLock::new(|| piece_set(&SetName::Thesis, 4, Normals::Flat).unwrap());
 
-static SMOOTH: LazyLock<PieceSet> = LazyLock::new(|| thesis_set(3, Normals::Smooth).unwrap());
+static STAUNTON: LazyLock<PieceSet> =
+    LazyLock::new(|| piece_set(&SetName::Staunton, 3, Normals::Smooth).unwrap());
 
 fn solids() -> Vec<(&'static str, Csg)> {
     let sphere = || Csg::leaf(Sphere { center: DVec3::new(0.3, 1.0, -0.2), radius: 1.2 });
@@ -32,7 +34,6 @@ fn solids() -> Vec<(&'static str, Csg)> {
         ("prism", prism(0, Normals::Flat)),
         ("rounded prism", prism(3, Normals::Smooth)),
         ("carved prism", prism(3, Normals::Smooth).minus(sphere()).and(turned())),
-        ("smooth queen", SMOOTH.queen.clone()),
         ("half a sphere", sphere().minus(Csg::leaf(half_space()))),
         ("quarter of a sphere", sphere().and(Csg::leaf(half_space())).and(cuboid())),
         ("sphere", sphere()),
@@ -42,12 +43,18 @@ fn solids() -> Vec<(&'static str, Csg)> {
         ("intersection", sphere().and(turned())),
         ("difference", turned().minus(sphere())),
         ("tree", turned().minus(sphere().and(cuboid())).or(cuboid().minus(turned()))),
-        ("pawn", SET.pawn.clone()),
-        ("knight", SET.knight.clone()),
-        ("bishop", SET.bishop.clone()),
-        ("rook", SET.rook.clone()),
-        ("queen", SET.queen.clone()),
-        ("king", SET.king.clone()),
+        ("thesis pawn", THESIS.pawn.clone()),
+        ("thesis knight", THESIS.knight.clone()),
+        ("thesis bishop", THESIS.bishop.clone()),
+        ("thesis rook", THESIS.rook.clone()),
+        ("thesis queen", THESIS.queen.clone()),
+        ("thesis king", THESIS.king.clone()),
+        ("pawn", STAUNTON.pawn.clone()),
+        ("knight", STAUNTON.knight.clone()),
+        ("bishop", STAUNTON.bishop.clone()),
+        ("rook", STAUNTON.rook.clone()),
+        ("queen", STAUNTON.queen.clone()),
+        ("king", STAUNTON.king.clone()),
     ]
 }
 

@@ -1,39 +1,17 @@
-//! What pictures are made of and no frame changes: piece sets, built in as data, and bitmaps.
+//! What pictures are made of and no frame changes: piece sets, as data, and bitmaps.
 
 mod bitmap;
-mod thesis;
+mod set;
 
 pub use bitmap::{Beyond, Bitmap, BitmapError};
-pub use thesis::thesis_set;
+pub use set::{PieceSet, SetError, SetName, piece_set};
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use serde::Serialize;
-
 use crate::config::{self, Config};
-use crate::geometry::{Csg, CurveError, Normals};
-
-/// A set of chessmen, each standing on the origin, y up, in world units (4 a square).
-#[derive(Clone)]
-pub struct PieceSet {
-    pub pawn: Csg,
-    pub knight: Csg,
-    pub bishop: Csg,
-    pub rook: Csg,
-    pub queen: Csg,
-    pub king: Csg,
-}
-
-/// Which set of chessmen.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum SetName {
-    /// The thesis's: plain turnings, a cross, a knight cut out of a box.
-    #[default]
-    Thesis,
-}
+use crate::geometry::Normals;
 
 /// All that a scene takes from elsewhere.
 #[derive(Clone)]
@@ -46,8 +24,8 @@ pub struct Assets {
 /// Why assets cannot be had.
 #[derive(Debug, thiserror::Error)]
 pub enum AssetError {
-    #[error("the piece set cannot be built")]
-    Set(#[from] CurveError),
+    #[error(transparent)]
+    Set(#[from] SetError),
     #[error(transparent)]
     Bitmap(#[from] BitmapError),
 }
@@ -57,9 +35,8 @@ impl Assets {
     /// that it uses.
     ///
     /// # Errors
-    /// A picture that cannot be read.
-    pub fn load(config: &Config, set: SetName) -> Result<Assets, AssetError> {
-        let SetName::Thesis = set;
+    /// A set or a picture that cannot be read.
+    pub fn load(config: &Config, set: &SetName) -> Result<Assets, AssetError> {
         let normals = match config.render.normals {
             config::Normals::Flat => Normals::Flat,
             config::Normals::Smooth => Normals::Smooth,
@@ -69,6 +46,6 @@ impl Assets {
             .into_iter()
             .map(|path| Ok((path.clone(), Arc::new(Bitmap::open(path, config.render.filter)?))))
             .collect::<Result<_, BitmapError>>()?;
-        Ok(Assets { set: thesis_set(config.render.subdivisions, normals)?, bitmaps })
+        Ok(Assets { set: piece_set(set, config.render.subdivisions, normals)?, bitmaps })
     }
 }

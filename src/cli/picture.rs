@@ -31,9 +31,9 @@ pub struct PictureArgs {
     /// Threads, from 1 to 1024 [default: one a core]
     #[arg(long, value_name = "N", value_parser = threads)]
     cpu: Option<usize>,
-    /// The chessmen
-    #[arg(long, value_name = "NAME", default_value = "thesis")]
-    set: SetArg,
+    /// The chessmen: staunton, thesis, or a folder with a set of one's own
+    #[arg(long, value_name = "NAME|DIR", default_value = "staunton", value_parser = SetName::parse)]
+    set: SetName,
     /// What pictures look like before any setting: camera, lights, materials
     #[arg(long, value_name = "NAME", default_value = "studio")]
     look: LookArg,
@@ -57,11 +57,6 @@ enum AntialiasingMode {
     Grid,
     #[value(alias = "2")]
     Adaptive,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum SetArg {
-    Thesis,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -101,9 +96,7 @@ impl PictureArgs {
         }
         config.render.rays = self.ssrays.unwrap_or(config.render.rays);
         config.render.plain |= self.plain;
-        let set = match self.set {
-            SetArg::Thesis => SetName::Thesis,
-        };
+        let set = self.set.clone();
         Ok(PictureSettings { config, config_file, set, threads: self.cpu })
     }
 }

@@ -91,13 +91,13 @@ pub fn render(job: &RenderJob, progress: &dyn Progress) -> Result<Summary, JobEr
     Ok(run.summary)
 }
 
-/// Refuses to write into a folder that holds what is read: a game, the settings, a picture.
+/// Refuses to write into a folder that holds what is read: a game, the settings, a picture, a set.
 fn keep_out(job: &RenderJob, folder: &Path) -> Result<(), JobError> {
     let Ok(folder) = fs::canonicalize(folder) else {
         return Ok(());
     };
-    let PictureSettings { config, config_file, .. } = &job.picture;
-    let mut inputs = job.inputs.iter().chain(config_file).chain(config.bitmaps());
+    let of_pictures = job.picture.inputs();
+    let mut inputs = job.inputs.iter().chain(&of_pictures);
     let lies_within =
         |input: &&PathBuf| fs::canonicalize(input).is_ok_and(|input| input.starts_with(&folder));
     match inputs.find(lies_within) {

@@ -8,6 +8,7 @@ use serde::Serialize;
 use super::{JobError, shown};
 use crate::assets::{Assets, SetName};
 use crate::config::{Config, Render, Sampling};
+use crate::game::printable;
 use crate::scene::Stage;
 use crate::timeline::Frame;
 use crate::tracer::{self, Antialiasing, RayCounts};
@@ -23,19 +24,27 @@ pub struct PictureSettings {
     pub threads: Option<usize>,
 }
 
+impl PictureSettings {
+    /// The files that are read for pictures, if they are there.
+    pub(super) fn inputs(&self) -> Vec<PathBuf> {
+        let bitmaps = self.config.bitmaps().into_iter().cloned();
+        self.config_file.iter().cloned().chain(bitmaps).chain(self.set.files()).collect()
+    }
+}
+
 /// [`PictureSettings`] as they stand in a manifest, without the number of threads.
 #[derive(Serialize)]
 pub(super) struct SettingsRecord<'a> {
     version: &'static str,
     config_file: Option<String>,
-    set: SetName,
+    set: String,
     #[serde(flatten)]
     config: &'a Config,
 }
 
 /// Sets the stage for pictures with `settings`.
 pub(super) fn stage(settings: &PictureSettings) -> Result<Stage, JobError> {
-    let assets = Assets::load(&settings.config, settings.set)?;
+    let assets = Assets::load(&settings.config, &settings.set)?;
     Ok(Stage::new(&settings.config, &assets)?)
 }
 
@@ -93,7 +102,7 @@ impl<'a> Studio<'a> {
         SettingsRecord {
             version: env!("CARGO_PKG_VERSION"),
             config_file: self.settings.config_file.as_deref().map(shown),
-            set: self.settings.set,
+            set: printable(&self.settings.set.to_string()),
             config: &self.settings.config,
         }
     }

@@ -51,7 +51,7 @@ impl Subject {
     }
 }
 
-/// Refuses to write over what is read: the game, the settings, the pictures of materials.
+/// Refuses to write over what is read: the game, the settings, the pictures of materials, the set.
 pub(super) fn keep_inputs(
     subject: &Subject,
     settings: &PictureSettings,
@@ -61,7 +61,8 @@ pub(super) fn keep_inputs(
         Subject::Game { file, .. } => Some(file),
         Subject::Placement { .. } => None,
     };
-    let mut inputs = game.into_iter().chain(&settings.config_file).chain(settings.config.bitmaps());
+    let of_pictures = settings.inputs();
+    let mut inputs = game.into_iter().chain(&of_pictures);
     let place = |path: &Path| fs::canonicalize(path).ok();
     let target = place(output);
     if target.is_some() && inputs.any(|input| place(input) == target) {

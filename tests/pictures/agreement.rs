@@ -128,9 +128,10 @@ fn positions_look_as_povray_shows_them() {
         std::fs::write(here.join("settings.ini"), settings).unwrap();
         letter().save(here.join("letter.bmp")).unwrap();
         let pixels = format!("{}x{}", size[0], size[1]);
-        let look = ["-c", "settings.ini", "--plain", "--aa", "none", "--size", &pixels, "-q"];
+        let picture = ["-c", "settings.ini", "--plain", "--aa", "none", "--size", &pixels, "-q"];
+        let look = [&picture[..], &["--set", "thesis"]].concat();
         for command in [["diagram", "-o", "ours.png"], ["export", "-o", "scene.pov"]] {
-            lightsquare(here).args(command).args(subject).args(look).assert().success();
+            lightsquare(here).args(command).args(subject).args(&look).assert().success();
         }
         assert_agreement(name, &read(&here.join("ours.png")), &by_povray(here, size));
     }
