@@ -3,10 +3,11 @@
 use std::sync::Arc;
 
 use glam::{DAffine3, DVec2, DVec3};
-use lightsquare::config::{self, Finish, Light};
+use image::RgbImage;
+use lightsquare::config::{self, Coat, Finish, Light};
 use lightsquare::geometry::{Cuboid, Placed, Plane, Solid, Sphere};
 use lightsquare::scene::{Camera, Material, Object, Scene, Surface, Texture};
-use lightsquare::tracer::{Antialiasing, RayCounts, render};
+use lightsquare::tracer::{self, Antialiasing, RayCounts};
 
 const WHITE: DVec3 = DVec3::ONE;
 
@@ -19,10 +20,15 @@ const MATTE: Finish = Finish {
     transparency: 0.0,
 };
 
+fn material(finish: Finish, color: DVec3) -> Material {
+    Material { finish, coat: Coat::default(), texture: Texture::Plain(color) }
+}
+
 fn made_of(solid: impl Solid + 'static, finish: Finish, color: DVec3) -> Object {
     Object {
         body: Placed::new(Arc::new(solid), DAffine3::IDENTITY),
-        surface: Surface::Uniform(Material { finish, texture: Texture::Plain(color) }),
+        surface: Surface::Uniform(material(finish, color)),
+        seed: 0,
     }
 }
 
@@ -42,19 +48,25 @@ fn floor() -> Cuboid {
 fn from_above(objects: Vec<Object>) -> Scene {
     Scene {
         objects,
-        lights: vec![Light { position: DVec3::new(0.0, 1000.0, 0.0), color: WHITE }],
+        lights: vec![Light { position: DVec3::new(0.0, 1000.0, 0.0), color: WHITE, ..Light::default() }],
         camera: Camera::new(&config::Camera {
             position: DVec3::new(0.0, 10.0, 0.0),
             look_at: DVec3::ZERO,
             fov: 90.0,
             z_rot: 0.0,
         }),
-        background: DVec3::new(0.0, 0.0, 0.4),
+        room: None,
+        background: Some(DVec3::new(0.0, 0.0, 0.4)),
         max_depth: 5,
         min_weight: 0.0,
         max_distance: 1e9,
         snell_index: 1.5,
     }
+}
+
+fn render(scene: &Scene, width: u32, height: u32, mode: Antialiasing) -> (RgbImage, RayCounts) {
+    let (picture, rays) = tracer::render(scene, width, height, mode);
+    (picture.into_rgb8(), rays)
 }
 
 /// The pixel in the middle, as shares of 255, and the rays it took.
@@ -260,7 +272,7 @@ fn total_reflection_throws_everything_back() {
 fn a_face_on_the_border_of_two_squares_has_the_color_inside() {
     let mut block =
         matte(Cuboid { min: DVec3::new(-4.0, 0.0, -4.0), max: DVec3::new(0.0, 4.0, 0.0) }, WHITE);
-    let squares = |color| Material { finish: MATTE, texture: Texture::Plain(color) };
+    let squares = |color| material(MATTE, color);
     block.surface = Surface::Chequer {
         origin: DVec2::ZERO,
         side: 4.0,
@@ -268,7 +280,7 @@ fn a_face_on_the_border_of_two_squares_has_the_color_inside() {
     };
     let mut scene = from_above(vec![block]);
     scene.lights.clear();
-    scene.background = DVec3::Y;
+    scene.background = Some(DVec3::Y);
     // The sides at x = 0 and z = 0 seen at a slant.
     scene.camera = Camera::new(&config::Camera {
         position: DVec3::new(11.3, 5.7, 13.1),
@@ -284,7 +296,7 @@ fn a_face_on_the_border_of_two_squares_has_the_color_inside() {
 #[test]
 fn half_transparent_squares_shade_by_halves() {
     let glass = Finish { transparency: 0.5, ..CLEAR };
-    let squares = |finish| Material { finish, texture: Texture::Plain(WHITE) };
+    let squares = |finish| material(finish, WHITE);
     let mut screen = matte(pane(), WHITE);
     screen.surface = Surface::Chequer {
         origin: DVec2::splat(-25.0),
@@ -305,7 +317,7 @@ fn half_transparent_squares_shade_by_halves() {
 
 /// A picture with edges of bodies, shadows and squares.
 fn busy() -> Scene {
-    let squares = |color| Material { finish: MATTE, texture: Texture::Plain(color) };
+    let squares = |color| material(MATTE, color);
     let mut chequered = matte(floor(), WHITE);
     chequered.surface = Surface::Chequer {
         origin: DVec2::ZERO,

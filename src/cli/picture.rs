@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, bail};
 use clap::{Args, ValueEnum};
 use lightsquare::assets::SetName;
-use lightsquare::config::{Config, Look, Sampling, unknown};
+use lightsquare::config::{Config, Look, Quality, Sampling, unknown};
 use lightsquare::job::PictureSettings;
 
 use super::UsageError;
@@ -21,6 +21,9 @@ pub struct PictureArgs {
     /// Size in pixels, as in 1000x600
     #[arg(long, value_name = "WxH", value_parser = size, allow_hyphen_values = true)]
     size: Option<(u32, u32)>,
+    /// How many rays pixels get: draft, normal, high or print; --aa and --ssrays are over it
+    #[arg(long, value_name = "NAME", ignore_case = true)]
+    quality: Option<QualityArg>,
     /// Antialiasing: none (0), a grid of rays in each pixel (1), or in those pixels that differ
     /// from their neighbours (2) [default: grid]
     #[arg(long, value_name = "MODE", ignore_case = true)]
@@ -44,6 +47,9 @@ pub struct PictureArgs {
     /// Wood and marble as plain colours
     #[arg(long)]
     plain: bool,
+    /// No ground: a PNG that is transparent where there is neither board nor piece
+    #[arg(long)]
+    transparent: bool,
     /// Print the settings that are in force as a config.ini, and do nothing else
     #[arg(long)]
     pub print_config: bool,
@@ -57,6 +63,14 @@ enum AntialiasingMode {
     Grid,
     #[value(alias = "2")]
     Adaptive,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum QualityArg {
+    Draft,
+    Normal,
+    High,
+    Print,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -87,6 +101,15 @@ impl PictureArgs {
         if let Some((width, height)) = self.size {
             (config.width, config.height) = (width, height);
         }
+        if let Some(quality) = self.quality {
+            let quality = match quality {
+                QualityArg::Draft => Quality::Draft,
+                QualityArg::Normal => Quality::Normal,
+                QualityArg::High => Quality::High,
+                QualityArg::Print => Quality::Print,
+            };
+            quality.apply(&mut config.render);
+        }
         if let Some(mode) = self.aa {
             config.render.sampling = match mode {
                 AntialiasingMode::None => Sampling::None,
@@ -96,6 +119,9 @@ impl PictureArgs {
         }
         config.render.rays = self.ssrays.unwrap_or(config.render.rays);
         config.render.plain |= self.plain;
+        if self.transparent {
+            (config.parts.background, config.parts.table) = (Some(None), Some(None));
+        }
         let set = self.set.clone();
         Ok(PictureSettings { config, config_file, set, threads: self.cpu })
     }

@@ -117,16 +117,19 @@ pub fn read_section<T>(
     lines
 }
 
-/// Prints a section with all its keys that mean something.
+/// Prints a section with all its keys that mean something; nothing where there are none.
 pub fn show_section<T>(name: &str, keys: &[Key<T>], target: &T, out: &mut String) {
-    let separator = if out.is_empty() { "" } else { "\n" };
-    // Writing to a string cannot fail.
-    let _ = writeln!(out, "{separator}[{name}]");
-    for key in keys {
+    let shown = keys.iter().filter_map(|key| {
         let means_something = key.only.as_ref().is_none_or(|only| (only.holds)(target));
-        if let Some(value) = (key.show)(target).filter(|_| means_something) {
-            let _ = writeln!(out, "{}={value}", key.name);
+        (key.show)(target).filter(|_| means_something).map(|value| (key.name, value))
+    });
+    for (index, (key, value)) in shown.enumerate() {
+        if index == 0 {
+            let separator = if out.is_empty() { "" } else { "\n" };
+            // Writing to a string cannot fail.
+            let _ = writeln!(out, "{separator}[{name}]");
         }
+        let _ = writeln!(out, "{key}={value}");
     }
 }
 

@@ -169,7 +169,7 @@ impl Default for Material {
     fn default() -> Material {
         Material {
             finish: POLISHED,
-            coat: LACQUER,
+            coat: Coat::default(),
             texture: Texture::Plain,
             color: DVec3::splat(0.8),
             second_color: DVec3::splat(0.2),
@@ -194,4 +194,9 @@ pub(super) const POLISHED: Finish = Finish {
     transparency: 0.0,
 };
 
-pub(super) const LACQUER: Coat = Coat { coat: 1.5, roughness: 0.1, metal: false };
+/// Lacquer.
+impl Default for Coat {
+    fn default() -> Coat {
+        Coat { coat: 1.5, roughness: 0.1, metal: false }
+    }
+}

@@ -8,6 +8,7 @@ mod look;
 mod material;
 mod model;
 mod nearest;
+mod quality;
 mod sections;
 mod shelf;
 mod theme;
@@ -18,6 +19,7 @@ pub use look::Look;
 pub use material::{Axis, Coat, Finish, Mapping, Material, Texture};
 pub use model::{Model, Shape};
 pub use nearest::nearest;
+pub use quality::Quality;
 pub use theme::{Edge, Parts, Scheme};
 
 use std::collections::{BTreeMap, BTreeSet};

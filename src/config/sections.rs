@@ -577,7 +577,7 @@ mod tests {
             [Camera]\r\nPosition=45,15,-30\r\nLookAt=14,0,14\r\nFOV=90\r\nZRot=10\r\n";
         let config = Config::parse(text).unwrap();
         assert_eq!((config.width, config.height), (300, 300));
-        assert_eq!(config.lights, Config::default().lights);
+        assert_eq!(config.lights, Config::new(crate::config::Look::Thesis).lights);
         assert_eq!(config.camera.z_rot, 10.0);
     }
 

@@ -83,7 +83,7 @@ impl Camera {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::Config;
+    use crate::config::{Config, Look};
 
     fn seen_at(camera: &Camera, point: DVec3) -> (f64, f64) {
         let to = point - camera.position;
@@ -94,7 +94,7 @@ mod tests {
     #[test]
     fn the_world_is_left_handed() {
         let settings =
-            config::Camera { position: DVec3::new(14.0, 20.0, -30.0), ..Config::default().camera };
+            config::Camera { position: DVec3::new(14.0, 20.0, -30.0), ..Config::new(Look::Thesis).camera };
         let camera = Camera::new(&settings);
         let (a_file, _) = seen_at(&camera, DVec3::ZERO);
         let (h_file, first_rank) = seen_at(&camera, DVec3::new(28.0, 0.0, 0.0));
@@ -105,14 +105,14 @@ mod tests {
 
     #[test]
     fn a_fov_of_90_sees_45_degrees() {
-        let camera = Camera::new(&Config::default().camera);
+        let camera = Camera::new(&Config::new(Look::Thesis).camera);
         let [left, right] = [0.0, 1000.0].map(|x| camera.ray(x, 300.0, 1000, 600).direction);
         assert!((left.angle_between(right).to_degrees() - 45.0).abs() < 1e-9);
     }
 
     #[test]
     fn positive_roll_turns_rays_from_x_towards_y() {
-        let mut settings = Config::default().camera;
+        let mut settings = Config::new(Look::Thesis).camera;
         let straight = Camera::new(&settings);
         settings.z_rot = 90.0;
         let rolled = Camera::new(&settings);
@@ -123,7 +123,7 @@ mod tests {
     #[test]
     fn straight_down_has_rank_8_on_top() {
         let settings =
-            config::Camera { position: DVec3::new(14.0, 60.0, 14.0), ..Config::default().camera };
+            config::Camera { position: DVec3::new(14.0, 60.0, 14.0), ..Config::new(Look::Thesis).camera };
         let camera = Camera::new(&settings);
         assert_eq!(seen_at(&camera, DVec3::new(14.0, 0.0, 14.0)), (0.0, 0.0));
         let (x, y) = seen_at(&camera, DVec3::new(0.0, 0.0, 28.0));

@@ -61,10 +61,9 @@ pub fn clock(clock: &Clock, materials: &Materials) -> Result<[Object; 2], Materi
         filter,
         linear: materials.is_linear(),
     };
-    let coat = Coat { coat: 1.5, roughness: 0.1, metal: false };
     Ok([
         Object::standing(CASE, materials.surface(&clock.case)?),
-        Object::standing(plate, Surface::Uniform(Material { finish, coat, texture })),
+        Object::standing(plate, Surface::Uniform(Material { finish, coat: Coat::default(), texture })),
     ])
 }
 

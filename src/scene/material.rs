@@ -159,7 +159,7 @@ mod tests {
 
     #[test]
     fn the_chequer_has_a_dark_a1_and_a_light_h1() {
-        let settings = Config::default();
+        let settings = Config::new(config::Look::Thesis);
         let materials = Materials { config: &settings, bitmaps: &BTreeMap::new() };
         let [dark, light] = ["dark", "light"].map(|name| materials.material(name).unwrap());
         let board = Surface::Chequer {

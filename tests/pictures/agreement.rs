@@ -9,7 +9,7 @@ use std::sync::Arc;
 use crate::{CLOCK, MAPPED, difference, letter, lightsquare, read};
 use glam::{DAffine3, DVec2, DVec3};
 use image::RgbImage;
-use lightsquare::config::{self, Config, Finish};
+use lightsquare::config::{self, Coat, Config, Finish, Look};
 use lightsquare::export::pov;
 use lightsquare::geometry::transform::{rotation_x, rotation_y, translation};
 use lightsquare::geometry::{
@@ -129,7 +129,7 @@ fn positions_look_as_povray_shows_them() {
         letter().save(here.join("letter.bmp")).unwrap();
         let pixels = format!("{}x{}", size[0], size[1]);
         let picture = ["-c", "settings.ini", "--plain", "--aa", "none", "--size", &pixels, "-q"];
-        let look = [&picture[..], &["--set", "thesis"]].concat();
+        let look = [&picture[..], &["--set", "thesis", "--look", "thesis"]].concat();
         for command in [["diagram", "-o", "ours.png"], ["export", "-o", "scene.pov"]] {
             lightsquare(here).args(command).args(subject).args(&look).assert().success();
         }
@@ -147,8 +147,9 @@ const MATTE: Finish = Finish {
 };
 
 fn object(solid: Csg, finish: Finish, color: [f64; 3], place: DAffine3) -> Object {
-    let material = Material { finish, texture: Texture::Plain(color.into()) };
-    Object { body: Placed::new(Arc::new(solid), place), surface: Surface::Uniform(material) }
+    let material = Material { finish, coat: Coat::default(), texture: Texture::Plain(color.into()) };
+    let surface = Surface::Uniform(material);
+    Object { body: Placed::new(Arc::new(solid), place), surface, seed: 0 }
 }
 
 fn control(points: &[(f64, f64, bool)]) -> Vec<ControlPoint> {
@@ -196,14 +197,15 @@ fn carvings() -> Scene {
             object(lathe().minus(ball([0.0, 4.5, 0.0], 0.8)), clear, [0.9; 3], at(7.0, -4.0)),
             object(lathe(), MATTE, [0.7, 0.7, 0.2], at(6.0, 9.0)),
         ],
-        lights: Config::default().lights,
+        lights: Config::new(Look::Thesis).lights,
         camera: Camera::new(&config::Camera {
             position: DVec3::new(2.0, 10.0, -22.0),
             look_at: DVec3::new(1.0, 2.5, 2.0),
             fov: 80.0,
             z_rot: -5.0,
         }),
-        background: DVec3::new(0.3, 0.4, 0.5),
+        room: None,
+        background: Some(DVec3::new(0.3, 0.4, 0.5)),
         max_depth: 8,
         min_weight: 1.0 / 1024.0,
         max_distance: 1e9,
@@ -224,5 +226,5 @@ fn carved_bodies_look_as_povray_shows_them() {
     std::fs::write(folder.path().join("scene.pov"), written.text).unwrap();
     let (ours, _) = render(&scene, width, height, Antialiasing::None);
     let theirs = by_povray(folder.path(), [width, height]);
-    assert_agreement("carvings", &ours, &theirs);
+    assert_agreement("carvings", &ours.into_rgb8(), &theirs);
 }

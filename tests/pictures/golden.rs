@@ -85,7 +85,7 @@ fn pictures_are_as_they_were_when_they_were_looked_at() {
         letter().save(here.join("letter.bmp")).unwrap();
         lightsquare(here)
             .args(["diagram", "--fen", ITALIAN, "-c", "settings.ini", "-q", "-o", "found.png"])
-            .args(["--set", "thesis", "--aa", mode, "--size", "200x120"])
+            .args(["--set", "thesis", "--look", "thesis", "--aa", mode, "--size", "200x120"])
             .assert()
             .success();
         let (found, path) = (read(&here.join("found.png")), golden.join(format!("{name}.png")));
