@@ -208,8 +208,8 @@ impl AxisLine {
         }
         let root = discriminant.sqrt();
         let stable = if b < 0.0 { root - b } else { -root - b };
-        // The other nappe of the cone has u < 0.
-        let in_front = |t: f64| (h + g * t) / nu >= 0.0;
+        // The other nappe of the cone has u < 0; rounding must not lose its tip, where u is 0.
+        let in_front = |t: f64| (h + g * t) / nu >= -MARGIN;
         [stable / a, c / stable]
             .into_iter()
             .filter(|&t| t.is_finite() && in_front(t) && owns(t))
