@@ -2,6 +2,7 @@
 //!
 //! A new key is a field of a settings type and a line in the table of its section.
 
+mod camera;
 mod ini;
 mod keys;
 mod material;
@@ -10,6 +11,7 @@ mod nearest;
 mod sections;
 mod values;
 
+pub use camera::{Camera, ORIENTATIONS, Orientation, Pose, VIEWS, View};
 pub use material::{Axis, Finish, Mapping, Material, Texture};
 pub use model::{Model, Shape};
 pub use nearest::nearest;
@@ -60,21 +62,6 @@ pub struct Light {
     pub position: DVec3,
     /// Intensity of each channel, from 0 up.
     pub color: DVec3,
-}
-
-/// Where the camera stands and what it looks at.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Camera {
-    /// In world units.
-    pub position: DVec3,
-    /// In world units; another point than `position`.
-    pub look_at: DVec3,
-    /// In degrees, **twice** the true angle from the left edge of the picture to the right: the
-    /// thesis halves it twice, and its files mean it so.
-    pub fov: f64,
-    /// Roll about the view axis in degrees; positive turns a ray from x towards y in camera
-    /// space, so the picture turns clockwise.
-    pub z_rot: f64,
 }
 
 /// How pictures are traced.
@@ -142,11 +129,27 @@ pub struct Board {
     pub table: Option<String>,
 }
 
-/// The materials of the pieces, by name.
+/// The materials of the pieces, by name, and which way they face.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Pieces {
     pub white: String,
     pub black: String,
+    pub knights: Knights,
+}
+
+/// Where knights look, and what turns with them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Knights {
+    /// To the left of the picture and a little out of it; all pieces of both colours are turned so,
+    /// their own +z to the viewer.
+    Left,
+    /// To the right and a little out of it, all pieces' own −z to the viewer.
+    Right,
+    /// White's to rank 8, Black's to rank 1; other pieces stand as they were made.
+    Enemy,
+    /// As all pieces were made: towards the h-file.
+    Kingside,
 }
 
 /// The clock beside the board.
@@ -220,10 +223,9 @@ impl Config {
                 Light { position: DVec3::new(90.0, 90.0, 20.0), color: DVec3::splat(0.5) },
             ],
             camera: Camera {
-                position: DVec3::new(45.0, 15.0, -30.0),
-                look_at: DVec3::new(14.0, 0.0, 14.0),
-                fov: 90.0,
-                z_rot: 0.0,
+                view: View::Thesis,
+                orientation: Orientation::White,
+                pose: Pose::default(),
             },
             render: Render {
                 sampling: Sampling::Grid,
@@ -242,7 +244,11 @@ impl Config {
                 frame: "frame".to_owned(),
                 table: None,
             },
-            pieces: Pieces { white: "white".to_owned(), black: "black".to_owned() },
+            pieces: Pieces {
+                white: "white".to_owned(),
+                black: "black".to_owned(),
+                knights: Knights::Kingside,
+            },
             clock: Clock { show: false, white: 0, black: 0, case: "frame".to_owned() },
             models: Vec::new(),
             materials: material::built_in(),
@@ -286,7 +292,7 @@ impl Config {
     /// The pictures of the materials that are used.
     pub fn bitmaps(&self) -> BTreeSet<&PathBuf> {
         let Board { light, dark, frame, table } = &self.board;
-        let Pieces { white, black } = &self.pieces;
+        let Pieces { white, black, .. } = &self.pieces;
         let clock = self.clock.show.then_some(&self.clock.case);
         let models = self.models.iter().map(|model| &model.material);
         let used = [light, dark, frame, white, black].into_iter().chain(table).chain(clock);

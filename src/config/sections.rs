@@ -8,8 +8,8 @@ use super::values::{
     COLOR, Choice, Integer, Name, NameOrNone, Number, Optional, PLACE, Time, Triple, YES_NO,
 };
 use super::{
-    Board, Camera, Clock, Config, FARTHEST, Fault, Filter, Finish, Light, MAX_RAYS, MAX_SIDE,
-    Mapping, Material, Model, Normals, Pieces, Render, SHORTEST, Sampling, Shape, Texture,
+    Board, Clock, Config, FARTHEST, Fault, Filter, Finish, Knights, Light, MAX_RAYS, MAX_SIDE,
+    Mapping, Material, Model, Normals, Pieces, Render, SHORTEST, Sampling, Shape, Texture, camera,
     material, model,
 };
 
@@ -43,13 +43,6 @@ const GLOBAL_KEYS: [Key<Global>; 6] = [
     key!("LightCount", Global, light_count: Optional(Integer(0, MAX_LIGHTS))),
     key!("ModelCount", Global, model_count: Optional(Integer(0, MAX_MODELS))),
     key!("SnellIndex", Global, config.snell_index: Number(1.0, 5.0)),
-];
-
-const CAMERA_KEYS: [Key<Camera>; 4] = [
-    key!("Position", Camera, position: PLACE),
-    key!("LookAt", Camera, look_at: PLACE),
-    key!("FOV", Camera, fov: Number(1.0, 340.0)),
-    key!("ZRot", Camera, z_rot: Number(-360.0, 360.0)),
 ];
 
 const LIGHT_KEYS: [Key<Light>; 2] =
@@ -88,8 +81,18 @@ const BOARD_KEYS: [Key<Board>; 4] = [
     key!("Table", Board, table: NameOrNone),
 ];
 
-const PIECES_KEYS: [Key<Pieces>; 2] =
-    [key!("White", Pieces, white: Name), key!("Black", Pieces, black: Name)];
+const PIECES_KEYS: [Key<Pieces>; 3] = [
+    key!("White", Pieces, white: Name),
+    key!("Black", Pieces, black: Name),
+    key!("Knights", Pieces, knights: KNIGHTS),
+];
+
+const KNIGHTS: Choice<Knights> = Choice(&[
+    ("left", Knights::Left),
+    ("right", Knights::Right),
+    ("enemy", Knights::Enemy),
+    ("kingside", Knights::Kingside),
+]);
 
 const CLOCK_KEYS: [Key<Clock>; 4] = [
     key!("Show", Clock, show: YES_NO),
@@ -132,7 +135,6 @@ pub fn interpret(
     faults: &mut Vec<Fault>,
 ) -> Config {
     let mut global = Global { config: base, ..Global::default() };
-    let mut camera_line = 0;
     let mut count_lines = [0; 2];
     let mut lights: Vec<Numbered<Light>> = Vec::new();
     let mut models: Vec<Numbered<Model>> = Vec::new();
@@ -153,10 +155,7 @@ pub fn interpret(
                 let lines = read_section(section, &GLOBAL_KEYS, &mut global, faults);
                 count_lines = [lines.of("LightCount"), lines.of("ModelCount")];
             }
-            "camera" => {
-                camera_line = section.line;
-                read_section(section, &CAMERA_KEYS, &mut config.camera, faults);
-            }
+            "camera" => camera::read(section, &mut config.camera, faults),
             "render" => {
                 read_section(section, &RENDER_KEYS, &mut config.render, faults);
             }
@@ -197,12 +196,6 @@ pub fn interpret(
         seen.push(name);
     }
     let Global { mut config, light_count, model_count } = global;
-    if config.camera.position.distance(config.camera.look_at) < 1e-9 {
-        faults.push(Fault {
-            line: camera_line,
-            message: "the camera's LookAt is its own Position, expected another point".to_owned(),
-        });
-    }
     for light in &lights {
         if let Some(missing) = light.lines.first_missing(&["Position", "Color"]) {
             let message = format!("[{}] has no {missing}, expected one", light.name);
@@ -399,7 +392,7 @@ pub fn show(config: &Config) -> String {
     for (number, light) in config.lights.iter().enumerate() {
         show_section(&format!("Light{number}"), &LIGHT_KEYS, light, &mut out);
     }
-    show_section("Camera", &CAMERA_KEYS, &config.camera, &mut out);
+    show_section("Camera", &camera::KEYS, &config.camera, &mut out);
     show_section("Render", &RENDER_KEYS, &config.render, &mut out);
     show_section("Board", &BOARD_KEYS, &config.board, &mut out);
     show_section("Pieces", &PIECES_KEYS, &config.pieces, &mut out);
@@ -415,6 +408,7 @@ pub fn show(config: &Config) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::config::View;
 
     #[test]
     fn every_fault_is_reported_with_its_line() {
@@ -491,11 +485,20 @@ mod tests {
             ("[Clock]\nWhite=61:00", "line 2: White is `61:00`, expected a time"),
             (
                 "[Camera]\nXyzzy=0",
-                "line 2: there is no key `Xyzzy`, expected one of Position, LookAt, FOV, ZRot",
+                "line 2: there is no key `Xyzzy`, expected one of View, Orientation, Position",
             ),
             ("[Camera]\nFOV=0", "line 2: FOV is `0`, expected a number from 1 to 340"),
             ("[Camera]\nFOV=90\nfov=80", "line 3: FOV is given here a second time in [Camera]"),
             ("[Camera]\nPosition=1,2,inf", "line 2: Position is `1,2,inf`, expected three numbers"),
+            (
+                "[Camera]\nView=wite\nFOV=80",
+                "line 2: View is `wite`, expected one of white, black, top",
+            ),
+            (
+                "[Camera]\nFOV=80\nView=top",
+                "line 2: FOV is for a camera with View=free, and [Camera] is none",
+            ),
+            ("[Pieces]\nKnights=up", "line 2: Knights is `up`, expected one of left, right, enemy"),
             ("[Camera]\nPosition=14,0,14", "line 1: the camera's LookAt is its own Position"),
             ("[Camera]\n[Camera]\n", "line 2: the section [Camera] stands here a second time"),
             ("ZRot=10", "line 1: `ZRot=10` stands before the first [section]"),
@@ -543,7 +546,7 @@ mod tests {
         let config = Config::parse(text).unwrap();
         assert_eq!((config.width, config.height), (300, 300));
         assert_eq!(config.lights, Config::default().lights);
-        assert_eq!(config.camera.z_rot, 10.0);
+        assert_eq!((config.camera.view, config.camera.pose.z_rot), (View::Free, 10.0));
     }
 
     #[test]

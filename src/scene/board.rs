@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 use super::material::{MaterialError, Materials};
 use super::{Object, Surface};
 use crate::config::Board;
-use crate::geometry::{Cuboid, Plane};
+use crate::geometry::{Bounds, Cuboid, Plane};
 
 /// Width of a square in world units.
 pub const SQUARE: f64 = 4.0;
@@ -43,6 +43,12 @@ pub fn board(board: &Board, materials: &Materials) -> Result<Vec<Object>, Materi
         objects.push(Object::standing(plane, materials.surface(table)?));
     }
     Ok(objects)
+}
+
+/// What the board fills, without the table.
+pub fn bounds() -> Bounds {
+    let Cuboid { min, max } = block(HALF + FRAME, -DEPTH, 0.0);
+    Bounds { min, max }
 }
 
 /// A flat square block round the board's middle.

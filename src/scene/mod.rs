@@ -7,18 +7,22 @@
 mod board;
 mod camera;
 mod clock;
+mod facing;
+mod framing;
 mod mapping;
 mod material;
 mod models;
 mod noise;
 mod stage;
 mod texture;
+mod view;
 
-pub use camera::Camera;
+pub use camera::{Camera, Projection};
 pub use mapping::Mapping;
 pub use material::{Material, MaterialError, Rgb, Surface};
 pub use stage::Stage;
 pub use texture::{Noise, Texture};
+pub use view::Reach;
 
 use crate::config::Light;
 use std::sync::Arc;

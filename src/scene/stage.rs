@@ -6,9 +6,10 @@ use glam::DVec3;
 
 use super::board::{MIDDLE, SQUARE, board};
 use super::clock::clock;
+use super::facing::Facing;
 use super::material::{MaterialError, Materials};
 use super::models::model;
-use super::{Camera, Object, Rgb, Scene, Surface};
+use super::{Camera, Object, Reach, Rgb, Scene, Surface, view};
 use crate::assets::Assets;
 use crate::config::{Config, Light};
 use crate::geometry::transform::translation;
@@ -34,6 +35,7 @@ pub struct Stage {
     fixed: Vec<Object>,
     lights: Vec<Light>,
     camera: Camera,
+    facing: Facing,
     background: Rgb,
     max_depth: u32,
     max_distance: f64,
@@ -41,12 +43,13 @@ pub struct Stage {
 }
 
 impl Stage {
-    /// Sets the stage as `config` says, with `assets` that were loaded for it.
+    /// Sets the stage as `config` says, with `assets` that were loaded for it, for frames that reach as
+    /// far as `reach`.
     ///
     /// # Errors
     /// When `config` names a material that it does not have, or `assets` lack a picture. Neither
     /// happens with settings that were read from a file.
-    pub fn new(config: &Config, assets: &Assets) -> Result<Stage, MaterialError> {
+    pub fn new(config: &Config, assets: &Assets, reach: Reach) -> Result<Stage, MaterialError> {
         let materials = Materials { config, bitmaps: &assets.bitmaps };
         let mut fixed = board(&config.board, &materials)?;
         if config.clock.show {
@@ -56,6 +59,7 @@ impl Stage {
             fixed.push(model(settings, &materials)?);
         }
         let set = assets.set.clone();
+        let camera = view::camera(config, &set, reach);
         Ok(Stage {
             pieces: [set.pawn, set.knight, set.bishop, set.rook, set.queen, set.king].map(Arc::new),
             surfaces: [
@@ -64,7 +68,8 @@ impl Stage {
             ],
             fixed,
             lights: config.lights.clone(),
-            camera: Camera::new(&config.camera),
+            facing: Facing::new(config.pieces.knights, &camera),
+            camera,
             background: config.background,
             max_depth: config.render.max_depth,
             max_distance: config.render.max_distance,
@@ -100,7 +105,10 @@ impl Stage {
         };
         let place = DVec3::new(spot.file, spot.height, spot.rank) * SQUARE + DVec3::Y * FELT;
         Object {
-            body: Placed::new(self.pieces[solid].clone(), translation(place)),
+            body: Placed::new(
+                self.pieces[solid].clone(),
+                translation(place) * self.facing.turn(piece),
+            ),
             surface: self.surfaces[match piece.color {
                 Color::White => 0,
                 Color::Black => 1,

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use crate::{CLOCK, MAPPED, difference, letter, lightsquare, read};
 use glam::{DAffine3, DVec2, DVec3};
 use image::RgbImage;
-use lightsquare::config::{self, Config, Finish};
+use lightsquare::config::{Config, Finish, Pose};
 use lightsquare::export::pov;
 use lightsquare::geometry::transform::{rotation_x, rotation_y, translation};
 use lightsquare::geometry::{
@@ -196,7 +196,7 @@ fn carvings() -> Scene {
             object(lathe(), MATTE, [0.7, 0.7, 0.2], at(6.0, 9.0)),
         ],
         lights: Config::default().lights,
-        camera: Camera::new(&config::Camera {
+        camera: Camera::free(&Pose {
             position: DVec3::new(2.0, 10.0, -22.0),
             look_at: DVec3::new(1.0, 2.5, 2.0),
             fov: 80.0,
