@@ -54,6 +54,9 @@ FOV=60
 
 const ABOVE: &str = "[Camera]\nPosition=14,60,14\nLookAt=14,0,14\nFOV=80\n";
 
+/// In parallel projection.
+const TOP: &str = "[Camera]\nView=top\nOrientation=black\n";
+
 fn has_povray() -> bool {
     let found = Command::new("povray").arg("--version").output().is_ok();
     if !found {
@@ -112,17 +115,19 @@ fn positions_look_as_povray_shows_them() {
         return;
     }
     let start = "rnbqkbnr/pppppppp/8/8/8/8/PPPPPPPP/RNBQKBNR";
-    let cases: [(&str, &[&str], &str); 7] = [
+    let cases: [(&str, &[&str], &str); 8] = [
         ("start", &["--fen", start], ""),
         ("opera, mate", &[OPERA, "--at", "17w"], ""),
         ("opera, long castling, from above", &[OPERA, "--at", "12w"], ABOVE),
+        ("opera, in parallel projection", &[OPERA, "--at", "9w"], TOP),
         ("clear pieces", &["--white", "DD1PE2", "--black", "SD3"], CLEAR),
         ("bitmaps", &["--white", "KD1"], MAPPED),
         ("a glass ball", &["--white", "PA1", "--black", "KE8"], GLASS_BALL),
         ("the clock", &["--white", "KE1DD1PE2", "--black", "KE8PD4"], CLOCK),
     ];
     for (name, subject, settings) in cases {
-        let size = if settings.is_empty() || settings == ABOVE { [1000, 600] } else { [500, 300] };
+        let is_large = ["", ABOVE, TOP].contains(&settings);
+        let size = if is_large { [1000, 600] } else { [500, 300] };
         let folder = tempfile::tempdir().unwrap();
         let here = folder.path();
         std::fs::write(here.join("settings.ini"), settings).unwrap();
