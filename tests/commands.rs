@@ -83,6 +83,7 @@ fn bad_thesis_lines_and_settings_get_a_sentence() {
             "lights.ini",
             "[GlobalSettings]\nLightCount=3\n[Light0]\nPosition=0,1,0\nColor=1,1,1\n[Light1]\nPosition=0,2,0\nColor=1,1,1\n",
         ),
+        ("view.ini", "[Camera]\nView=top\nFOV=80\n"),
         ("camera.ini", "[Camera]\nLookAt=45,15,-30\n"),
         ("window.ini", "[Model0]\nShape=plane\nOrigin=0,-9,0\nNormal=0,1,0\nMaterial=glass\n"),
         ("bitmap.ini", "[Material m]\nTexture=bitmap\nBitmap=broken.png\n[Pieces]\nWhite=m\n"),
@@ -129,6 +130,22 @@ fn bad_thesis_lines_and_settings_get_a_sentence() {
             "./set.toml: no such file, expected the files of a set: set.toml, pawn.toml",
         ),
         (&["diagram", "--white", "KE1", "--aa", "3"], 2, "[possible values: none, grid, adaptive]"),
+        (
+            &["diagram", "--white", "KE1", "--camera", "wite"],
+            2,
+            "invalid value 'wite' for '--camera <NAME>'\n  [possible values: white, black, top, side, \
+             player, thesis, free]\n\n  tip: a similar value exists: 'white'",
+        ),
+        (
+            &["diagram", "--white", "KE1", "--orientation", "red"],
+            2,
+            "[possible values: white, black]",
+        ),
+        (
+            &["diagram", "--white", "KE1", "-c", "view.ini"],
+            1,
+            "view.ini: line 3: FOV is for a camera with View=free, and [Camera] is none",
+        ),
         (&["diagram", "--white", "KE1", "--ssrays", "0"], 2, "a whole number from 1 to 32"),
         (
             &["export", "--white", "KE1", "-c", "clock.ini", "-o", "-"],
@@ -166,7 +183,7 @@ fn settings_in_force_are_printed_as_a_file_that_says_the_same() {
     let (code, printed, stderr) = run(here, &flags);
     assert_eq!((code, stderr.as_str()), (0, ""));
     let config = Config::parse(&printed).unwrap();
-    assert_eq!((config.width, config.height, config.camera.z_rot), (64, 48, 10.0));
+    assert_eq!((config.width, config.height, config.camera.pose.z_rot), (64, 48, 10.0));
     assert!(config.render.plain);
     fs::write(here.join("printed.ini"), &printed).unwrap();
     let again = ["export", "--print-config", "-c", "printed.ini"];

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DVec2, DVec3};
 use image::RgbImage;
-use lightsquare::config::{self, Coat, Finish, Light};
+use lightsquare::config::{Coat, Finish, Light, Pose};
 use lightsquare::geometry::{Cuboid, Placed, Plane, Solid, Sphere};
 use lightsquare::scene::{Camera, Material, Object, Scene, Surface, Texture};
 use lightsquare::tracer::{self, Antialiasing, RayCounts};
@@ -48,8 +48,12 @@ fn floor() -> Cuboid {
 fn from_above(objects: Vec<Object>) -> Scene {
     Scene {
         objects,
-        lights: vec![Light { position: DVec3::new(0.0, 1000.0, 0.0), color: WHITE, ..Light::default() }],
-        camera: Camera::new(&config::Camera {
+        lights: vec![Light {
+            position: DVec3::new(0.0, 1000.0, 0.0),
+            color: WHITE,
+            ..Light::default()
+        }],
+        camera: Camera::free(&Pose {
             position: DVec3::new(0.0, 10.0, 0.0),
             look_at: DVec3::ZERO,
             fov: 90.0,
@@ -204,7 +208,7 @@ fn a_camera_within_glass_sees_out_of_it() {
     let mut scene = from_above(vec![made_of(around, CLEAR, WHITE)]);
     assert_color(middle(&scene).0, [0.0, 0.0, 0.4]);
     // From within, a wide view meets the walls beyond the critical angle: they are mirrors.
-    scene.camera = Camera::new(&config::Camera {
+    scene.camera = Camera::free(&Pose {
         position: DVec3::new(0.0, 10.0, 0.0),
         look_at: DVec3::new(1.0, 9.0, 0.0),
         fov: 10.0,
@@ -258,7 +262,7 @@ fn total_reflection_throws_everything_back() {
         made_of(ball(DVec3::new(0.0, 4.0, 0.0), 2.0), Finish { ambient: 1.0, ..MATTE }, DVec3::X),
     ]);
     scene.lights.clear();
-    scene.camera = Camera::new(&config::Camera {
+    scene.camera = Camera::free(&Pose {
         position: DVec3::new(0.0, 23.0, 0.0),
         look_at: DVec3::new(9.0, 13.5, 0.0),
         fov: 4.0,
@@ -282,7 +286,7 @@ fn a_face_on_the_border_of_two_squares_has_the_color_inside() {
     scene.lights.clear();
     scene.background = Some(DVec3::Y);
     // The sides at x = 0 and z = 0 seen at a slant.
-    scene.camera = Camera::new(&config::Camera {
+    scene.camera = Camera::free(&Pose {
         position: DVec3::new(11.3, 5.7, 13.1),
         look_at: DVec3::new(-1.0, 2.0, -1.0),
         fov: 40.0,

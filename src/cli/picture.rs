@@ -5,11 +5,13 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, bail};
 use clap::{Args, ValueEnum};
 use lightsquare::assets::SetName;
-use lightsquare::config::{Config, Look, Quality, Sampling, unknown};
+use lightsquare::config::{
+    Config, Look, ORIENTATIONS, Orientation, Quality, Sampling, VIEWS, View, unknown,
+};
 use lightsquare::job::PictureSettings;
 
 use super::UsageError;
-use super::values::{rays, size, threads};
+use super::values::{one_of, rays, size, threads};
 
 /// What every picture has; the same words for every command.
 #[derive(Args)]
@@ -44,6 +46,12 @@ pub struct PictureArgs {
     /// a [Theme ...] of the settings [default: wood; thesis in the thesis's look]
     #[arg(long, value_name = "NAME")]
     theme: Option<String>,
+    /// The camera; `free` is where the settings put it [default: that of the look]
+    #[arg(long, value_name = "NAME", value_parser = one_of(&VIEWS), ignore_case = true)]
+    camera: Option<View>,
+    /// From whose side of the board the camera looks; black turns it by half a turn
+    #[arg(long, value_name = "COLOR", value_parser = one_of(&ORIENTATIONS), ignore_case = true)]
+    orientation: Option<Orientation>,
     /// Wood and marble as plain colours
     #[arg(long)]
     plain: bool,
@@ -117,6 +125,8 @@ impl PictureArgs {
                 AntialiasingMode::Adaptive => Sampling::Adaptive,
             };
         }
+        config.camera.view = self.camera.unwrap_or(config.camera.view);
+        config.camera.orientation = self.orientation.unwrap_or(config.camera.orientation);
         config.render.rays = self.ssrays.unwrap_or(config.render.rays);
         config.render.plain |= self.plain;
         if self.transparent {

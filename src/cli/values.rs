@@ -1,5 +1,6 @@
 //! Values of flags that are checked as they are read.
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use lightsquare::config::{MAX_RAYS, MAX_SIDE};
 use lightsquare::notation::Placement;
 
@@ -12,6 +13,16 @@ pub fn fen(text: &str) -> Result<FenArg, String> {
         format!(
             "{error}, expected a FEN such as 8/8/8/3k4/8/8/4P3/4K3 w - - 0 1, or its board part"
         )
+    })
+}
+
+/// One of a table of words, whatever its case.
+pub fn one_of<T: Copy + Send + Sync + 'static>(
+    table: &'static [(&'static str, T)],
+) -> impl TypedValueParser<Value = T> {
+    PossibleValuesParser::new(table.iter().map(|(word, _)| *word)).try_map(|word| {
+        let found = table.iter().find(|(known, _)| known.eq_ignore_ascii_case(&word));
+        found.map(|(_, value)| *value).ok_or("it is none of them")
     })
 }
 

@@ -106,7 +106,7 @@ pub fn read_section<T>(
     for key in keys {
         if let Some(only) = &key.only
             && lines.give(key.name)
-            && !(lines.failed("Shape") || lines.failed("Texture"))
+            && !["Shape", "Texture", "View"].iter().any(|key| lines.failed(key))
             && !(only.holds)(target)
         {
             let Only { what, .. } = only;

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use super::{
-    Camera, Clock, Config, FARTHEST, Filter, Light, Normals, Parts, Render, Room, Sampling,
-    Shading, shelf, theme,
+    Camera, Clock, Config, FARTHEST, Filter, Knights, Light, Normals, Orientation, Parts, Pose,
+    Render, Room, Sampling, Shading, View, shelf, theme,
 };
 
 /// How pictures look before any setting: a starting point for all of them.
@@ -48,11 +48,11 @@ fn thesis() -> Config {
         lights: vec![light([0.0, 150.0, -50.0], 0.8), light([90.0, 90.0, 20.0], 0.5)],
         room: Room::default(),
         camera: Camera {
-            position: DVec3::new(45.0, 15.0, -30.0),
-            look_at: DVec3::new(14.0, 0.0, 14.0),
-            fov: 90.0,
-            z_rot: 0.0,
+            view: View::Thesis,
+            orientation: Orientation::White,
+            pose: Pose::default(),
         },
+        knights: Knights::Kingside,
         render: Render {
             shading: Shading::Phong,
             sampling: Sampling::Grid,
@@ -86,6 +86,8 @@ fn studio(thesis: Config) -> Config {
     Config {
         width: 1200,
         height: 800,
+        camera: Camera { view: View::White, ..thesis.camera },
+        knights: Knights::Left,
         lights: vec![
             softbox([-26.0, 60.0, -10.0], [0.95, 0.912, 0.855], [18.0, 14.0]),
             softbox([60.0, 36.0, -22.0], [0.158, 0.163, 0.17], [16.0, 16.0]),

@@ -2,6 +2,7 @@
 //!
 //! A new key is a field of a settings type and a line in the table of its section.
 
+mod camera;
 mod ini;
 mod keys;
 mod look;
@@ -14,6 +15,7 @@ mod shelf;
 mod theme;
 mod values;
 
+pub use camera::{Camera, ORIENTATIONS, Orientation, Pose, VIEWS, View};
 pub use keys::unknown;
 pub use look::Look;
 pub use material::{Axis, Coat, Finish, Mapping, Material, Texture};
@@ -57,6 +59,8 @@ pub struct Config {
     pub themes: BTreeMap<String, Parts>,
     /// What is not as the theme has it.
     pub parts: Parts,
+    /// Which way pieces look.
+    pub knights: Knights,
     pub clock: Clock,
     pub models: Vec<Model>,
     /// By name, in small letters; every name that the other settings use is here.
@@ -98,21 +102,6 @@ impl Default for Room {
             turns: true,
         }
     }
-}
-
-/// Where the camera stands and what it looks at.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Camera {
-    /// In world units.
-    pub position: DVec3,
-    /// In world units; another point than `position`.
-    pub look_at: DVec3,
-    /// In degrees, **twice** the true angle from the left edge of the picture to the right: the
-    /// thesis halves it twice, and its files mean it so.
-    pub fov: f64,
-    /// Roll about the view axis in degrees; positive turns a ray from x towards y in camera
-    /// space, so the picture turns clockwise.
-    pub z_rot: f64,
 }
 
 /// How pictures are traced.
@@ -179,6 +168,21 @@ pub enum Filter {
     /// The same in copies of the picture at halved sizes (MIP levels), so that what is far away
     /// does not flicker.
     Mip,
+}
+
+/// Where knights look, and what turns with them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Knights {
+    /// To the left of the picture and a little out of it; all pieces of both colours are turned so,
+    /// their own +z to the viewer.
+    Left,
+    /// To the right and a little out of it, all pieces' own −z to the viewer.
+    Right,
+    /// White's to rank 8, Black's to rank 1; other pieces stand as they were made.
+    Enemy,
+    /// As all pieces were made: towards the h-file.
+    Kingside,
 }
 
 /// The clock beside the board.

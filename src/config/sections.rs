@@ -8,8 +8,8 @@ use super::values::{
     Choice, ColorOrTransparent, Integer, Name, Number, Optional, PLACE, Time, Triple, YES_NO,
 };
 use super::{
-    Camera, Clock, Config, FARTHEST, Fault, Filter, Finish, Light, MAX_RAYS, MAX_SIDE, Mapping,
-    Material, Model, Normals, Render, Room, SHORTEST, Sampling, Shading, Shape, Texture,
+    Clock, Config, FARTHEST, Fault, Filter, Finish, Knights, Light, MAX_RAYS, MAX_SIDE, Mapping,
+    Material, Model, Normals, Render, Room, SHORTEST, Sampling, Shading, Shape, Texture, camera,
     material, model, theme,
 };
 
@@ -48,13 +48,6 @@ const GLOBAL_KEYS: [Key<Global>; 7] = [
     key!("SnellIndex", Global, config.snell_index: Number(1.0, 5.0)),
 ];
 
-const CAMERA_KEYS: [Key<Camera>; 4] = [
-    key!("Position", Camera, position: PLACE),
-    key!("LookAt", Camera, look_at: PLACE),
-    key!("FOV", Camera, fov: Number(1.0, 340.0)),
-    key!("ZRot", Camera, z_rot: Number(-360.0, 360.0)),
-];
-
 const LIGHT_KEYS: [Key<Light>; 4] = [
     key!("Position", Light, position: PLACE),
     key!("Color", Light, color: Triple(0.0, 100.0)),
@@ -83,8 +76,7 @@ const RENDER_KEYS: [Key<Render>; 10] = [
     key!("Plain", Render, plain: YES_NO),
 ];
 
-const SHADINGS: Choice<Shading> =
-    Choice(&[("phong", Shading::Phong), ("studio", Shading::Studio)]);
+const SHADINGS: Choice<Shading> = Choice(&[("phong", Shading::Phong), ("studio", Shading::Studio)]);
 
 const SAMPLINGS: Choice<Sampling> = Choice(&[
     ("none", Sampling::None),
@@ -99,6 +91,19 @@ const NORMALS: Choice<Normals> = Choice(&[("flat", Normals::Flat), ("smooth", No
 
 const FILTERS: Choice<Filter> =
     Choice(&[("nearest", Filter::Nearest), ("bilinear", Filter::Bilinear), ("mip", Filter::Mip)]);
+
+const PIECES_KEYS: [Key<Config>; 3] = [
+    key!("White", Config, parts.white: Optional(Name)),
+    key!("Black", Config, parts.black: Optional(Name)),
+    key!("Knights", Config, knights: KNIGHTS),
+];
+
+const KNIGHTS: Choice<Knights> = Choice(&[
+    ("left", Knights::Left),
+    ("right", Knights::Right),
+    ("enemy", Knights::Enemy),
+    ("kingside", Knights::Kingside),
+]);
 
 const CLOCK_KEYS: [Key<Clock>; 4] = [
     key!("Show", Clock, show: YES_NO),
@@ -141,7 +146,6 @@ pub fn interpret(
     faults: &mut Vec<Fault>,
 ) -> Config {
     let mut global = Global { config: base, ..Global::default() };
-    let mut camera_line = 0;
     let mut lights: Vec<Numbered<Light>> = Vec::new();
     let mut models: Vec<Numbered<Model>> = Vec::new();
     let mut uses: Vec<Use> = Vec::new();
@@ -163,10 +167,7 @@ pub fn interpret(
             "globalsettings" => {
                 global_lines = read_section(section, &GLOBAL_KEYS, &mut global, faults);
             }
-            "camera" => {
-                camera_line = section.line;
-                read_section(section, &CAMERA_KEYS, &mut config.camera, faults);
-            }
+            "camera" => camera::read(section, &mut config.camera, faults),
             "render" => {
                 read_section(section, &RENDER_KEYS, &mut config.render, faults);
             }
@@ -178,7 +179,7 @@ pub fn interpret(
                 part_lines.push((None, lines));
             }
             "pieces" => {
-                let lines = read_section(section, &theme::PIECES_KEYS, &mut config.parts, faults);
+                let lines = read_section(section, &PIECES_KEYS, config, faults);
                 part_lines.push((None, lines));
             }
             _ if let Some(theme) = name.strip_prefix("theme ") => {
@@ -217,26 +218,28 @@ pub fn interpret(
         seen.push(name);
     }
     let Global { mut config, light_count, model_count } = global;
-    if config.camera.position.distance(config.camera.look_at) < 1e-9 {
-        faults.push(Fault {
-            line: camera_line,
-            message: "the camera's LookAt is its own Position, expected another point".to_owned(),
-        });
-    }
     for light in &lights {
         if let Some(missing) = light.lines.first_missing(&["Position", "Color"]) {
             let message = format!("[{}] has no {missing}, expected one", light.name);
             faults.push(Fault { line: light.lines.of(""), message });
         }
     }
-    if let Some(lights) =
-        counted("Light", light_count.zip(Some(global_lines.of("LightCount"))), MAX_LIGHTS, lights, faults)
-    {
+    if let Some(lights) = counted(
+        "Light",
+        light_count.zip(Some(global_lines.of("LightCount"))),
+        MAX_LIGHTS,
+        lights,
+        faults,
+    ) {
         config.lights = lights;
     }
-    if let Some(models) =
-        counted("Model", model_count.zip(Some(global_lines.of("ModelCount"))), MAX_MODELS, models, faults)
-    {
+    if let Some(models) = counted(
+        "Model",
+        model_count.zip(Some(global_lines.of("ModelCount"))),
+        MAX_MODELS,
+        models,
+        faults,
+    ) {
         config.models = models;
     }
     if !config.themes.contains_key(&config.theme) && !global_lines.failed("Theme") {
@@ -431,10 +434,10 @@ pub fn show(config: &Config) -> String {
         show_section(&format!("Light{number}"), &LIGHT_KEYS, light, &mut out);
     }
     show_section("Room", &ROOM_KEYS, &config.room, &mut out);
-    show_section("Camera", &CAMERA_KEYS, &config.camera, &mut out);
+    show_section("Camera", &camera::KEYS, &config.camera, &mut out);
     show_section("Render", &RENDER_KEYS, &config.render, &mut out);
     show_section("Board", &theme::BOARD_KEYS, &config.parts, &mut out);
-    show_section("Pieces", &theme::PIECES_KEYS, &config.parts, &mut out);
+    show_section("Pieces", &PIECES_KEYS, config, &mut out);
     show_section("Clock", &CLOCK_KEYS, &config.clock, &mut out);
     for (number, model) in config.models.iter().enumerate() {
         show_section(&format!("Model{number}"), &model::KEYS, model, &mut out);
@@ -450,6 +453,7 @@ pub fn show(config: &Config) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::config::{Look, View};
 
     #[test]
     fn every_fault_is_reported_with_its_line() {
@@ -526,11 +530,20 @@ mod tests {
             ("[Clock]\nWhite=61:00", "line 2: White is `61:00`, expected a time"),
             (
                 "[Camera]\nXyzzy=0",
-                "line 2: there is no key `Xyzzy`, expected one of Position, LookAt, FOV, ZRot",
+                "line 2: there is no key `Xyzzy`, expected one of View, Orientation, Position",
             ),
             ("[Camera]\nFOV=0", "line 2: FOV is `0`, expected a number from 1 to 340"),
             ("[Camera]\nFOV=90\nfov=80", "line 3: FOV is given here a second time in [Camera]"),
             ("[Camera]\nPosition=1,2,inf", "line 2: Position is `1,2,inf`, expected three numbers"),
+            (
+                "[Camera]\nView=wite\nFOV=80",
+                "line 2: View is `wite`, expected one of white, black, top",
+            ),
+            (
+                "[Camera]\nFOV=80\nView=top",
+                "line 2: FOV is for a camera with View=free, and [Camera] is none",
+            ),
+            ("[Pieces]\nKnights=up", "line 2: Knights is `up`, expected one of left, right, enemy"),
             ("[Camera]\nPosition=14,0,14", "line 1: the camera's LookAt is its own Position"),
             ("[Camera]\n[Camera]\n", "line 2: the section [Camera] stands here a second time"),
             ("ZRot=10", "line 1: `ZRot=10` stands before the first [section]"),
@@ -577,8 +590,8 @@ mod tests {
             [Camera]\r\nPosition=45,15,-30\r\nLookAt=14,0,14\r\nFOV=90\r\nZRot=10\r\n";
         let config = Config::parse(text).unwrap();
         assert_eq!((config.width, config.height), (300, 300));
-        assert_eq!(config.lights, Config::new(crate::config::Look::Thesis).lights);
-        assert_eq!(config.camera.z_rot, 10.0);
+        assert_eq!(config.lights, Config::new(Look::Thesis).lights);
+        assert_eq!((config.camera.view, config.camera.pose.z_rot), (View::Free, 10.0));
     }
 
     #[test]

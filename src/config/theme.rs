@@ -55,8 +55,7 @@ pub enum Edge {
 const EDGES: Choice<Edge> = Choice(&[("step", Edge::Step), ("moulded", Edge::Moulded)]);
 
 /// Where the names of materials stand in a theme.
-pub const MATERIAL_KEYS: [&str; 7] =
-    ["Light", "Dark", "Frame", "Inlay", "Table", "White", "Black"];
+pub const MATERIAL_KEYS: [&str; 7] = ["Light", "Dark", "Frame", "Inlay", "Table", "White", "Black"];
 
 pub const BOARD_KEYS: [Key<Parts>; 6] = [
     key!("Light", Parts, light: Optional(Name)),
@@ -67,17 +66,15 @@ pub const BOARD_KEYS: [Key<Parts>; 6] = [
     key!("Table", Parts, table: Optional(NameOrNone)),
 ];
 
-pub const PIECES_KEYS: [Key<Parts>; 2] = [
+const OTHER_KEYS: [Key<Parts>; 3] = [
     key!("White", Parts, white: Optional(Name)),
     key!("Black", Parts, black: Optional(Name)),
+    key!("BackgroundColor", Parts, background: Optional(ColorOrTransparent)),
 ];
-
-const BACKGROUND_KEY: Key<Parts> =
-    key!("BackgroundColor", Parts, background: Optional(ColorOrTransparent));
 
 /// All of them.
 pub fn keys() -> Vec<Key<Parts>> {
-    BOARD_KEYS.into_iter().chain(PIECES_KEYS).chain([BACKGROUND_KEY]).collect()
+    BOARD_KEYS.into_iter().chain(OTHER_KEYS).collect()
 }
 
 impl Parts {
@@ -116,8 +113,15 @@ impl Parts {
     pub fn materials(&self) -> impl Iterator<Item = (&'static str, &String)> {
         let Parts { light, dark, frame, inlay, table, white, black, .. } = self;
         let [inlay, table] = [inlay, table].map(|name| name.as_ref().and_then(Option::as_ref));
-        let names =
-            [light.as_ref(), dark.as_ref(), frame.as_ref(), inlay, table, white.as_ref(), black.as_ref()];
+        let names = [
+            light.as_ref(),
+            dark.as_ref(),
+            frame.as_ref(),
+            inlay,
+            table,
+            white.as_ref(),
+            black.as_ref(),
+        ];
         MATERIAL_KEYS.into_iter().zip(names).filter_map(|(key, name)| Some((key, name?)))
     }
 }
@@ -139,10 +143,22 @@ pub fn themes() -> BTreeMap<String, Parts> {
         theme("tournament", ["buff", "green", "buff", "ink", "graphite", "ivory", "ink"], slate),
         theme(
             "marble",
-            ["white-marble", "black-marble", "black-marble", "brass", "graphite", "white-marble", "black-marble"],
+            [
+                "white-marble",
+                "black-marble",
+                "black-marble",
+                "brass",
+                "graphite",
+                "white-marble",
+                "black-marble",
+            ],
             slate,
         ),
-        theme("glass", ["paper", "mid-grey", "graphite", "brass", "slate", "glass", "smoked-glass"], slate),
+        theme(
+            "glass",
+            ["paper", "mid-grey", "graphite", "brass", "slate", "glass", "smoked-glass"],
+            slate,
+        ),
         theme("print", ["paper", "mid-grey", "paper", "ink", "none", "chalk", "ink"], DVec3::ONE),
         theme("thesis", ["light", "dark", "frame", "none", "none", "white", "black"], DVec3::ZERO),
     ]

@@ -15,7 +15,7 @@ use glam::{DAffine3, DMat3, DVec2, DVec3};
 use crate::assets::Bitmap;
 use crate::config::{self, Axis, Filter, Finish};
 use crate::geometry::{Csg, Lathe, Operation, Plane, Prism, Root, Segment, Shape, Solid};
-use crate::scene::{Mapping, Material, Noise, Object, Scene, Surface, Texture};
+use crate::scene::{Mapping, Material, Noise, Object, Projection, Scene, Surface, Texture};
 
 /// A scene's text, and the pictures that it names.
 pub struct PovScene {
@@ -97,7 +97,11 @@ impl Writer<'_> {
         );
         line!(self, "background {{ rgb {} }}", vector(scene.background.unwrap_or_default()));
         line!(self, "camera {{");
-        line!(self, "  perspective location {}", vector(scene.camera.position()));
+        let projection = match scene.camera.projection() {
+            Projection::Perspective => "perspective",
+            Projection::Parallel => "orthographic",
+        };
+        line!(self, "  {projection} location {}", vector(scene.camera.position()));
         line!(self, "  right {} up {}", vector(right * across), vector(up * tall));
         line!(self, "  direction {}", vector(forward));
         line!(self, "}}");

@@ -51,15 +51,19 @@ impl Bounds {
         if !self.is_finite() {
             return Bounds::EVERYTHING;
         }
-        let corner = |index: usize| {
+        Bounds::of(self.corners().map(|corner| transform.transform_point3(corner)))
+    }
+
+    /// Its eight corners.
+    pub fn corners(&self) -> [DVec3; 8] {
+        std::array::from_fn(|index| {
             let pick = |bit: usize, low: f64, high: f64| if index & bit == 0 { low } else { high };
             DVec3::new(
                 pick(1, self.min.x, self.max.x),
                 pick(2, self.min.y, self.max.y),
                 pick(4, self.min.z, self.max.z),
             )
-        };
-        Bounds::of((0..8).map(|index| transform.transform_point3(corner(index))))
+        })
     }
 
     /// The part of `range` in which `ray` is inside the box, or `None`. Its ends are rounded: a

@@ -9,6 +9,7 @@ use super::studio::{PictureSettings, Studio};
 use crate::assets::SetName;
 use crate::config::{Config, Look, Sampling};
 use crate::notation::{Board, Placement};
+use crate::scene::Reach;
 use crate::timeline::Frame;
 use crate::tracer::RayCounts;
 
@@ -58,7 +59,7 @@ pub fn bench(job: &BenchJob) -> Result<Vec<Measurement>, JobError> {
             set: SetName::Thesis,
             threads: job.threads,
         };
-        let mut studio = Studio::new(&settings)?;
+        let mut studio = Studio::new(&settings, Reach::default())?;
         let mut run = || {
             let begin = Instant::now();
             studio.picture(&frame);

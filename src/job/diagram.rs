@@ -7,6 +7,7 @@ use super::studio::{PictureSettings, Studio};
 use super::subject::{Subject, keep_inputs};
 use super::{JobError, Progress, shown};
 use crate::output::{encode_png, prepare_file, write_picture};
+use crate::scene::Reach;
 use crate::tracer::RayCounts;
 
 /// Which position to render, and where to.
@@ -37,7 +38,7 @@ pub fn diagram(
 ) -> Result<DiagramSummary, JobError> {
     let shot = job.subject.read(progress)?;
     keep_inputs(&job.subject, &job.picture, &job.output)?;
-    let mut studio = Studio::new(&job.picture)?;
+    let mut studio = Studio::new(&job.picture, Reach::default())?;
     let to_stdout = job.output == Path::new("-");
     if !to_stdout {
         prepare_file(&job.output)?;

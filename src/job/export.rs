@@ -8,6 +8,7 @@ use super::subject::{Subject, keep_inputs};
 use super::{JobError, Progress, shown};
 use crate::export::pov;
 use crate::output::{Content, encode_png, prepare_file, write_together};
+use crate::scene::Reach;
 
 /// Which position to write down, and where to.
 #[derive(Clone, Debug)]
@@ -31,7 +32,7 @@ pub fn export(
     stdout: &mut dyn Write,
 ) -> Result<bool, JobError> {
     let shot = job.subject.read(progress)?;
-    let scene = stage(&job.picture)?.scene(&shot.frame);
+    let scene = stage(&job.picture, Reach::default())?.scene(&shot.frame);
     let config = &job.picture.config;
     let stem = job.output.file_stem().map_or("scene".into(), |stem| stem.to_string_lossy());
     let written = pov(&scene, config.width, config.height, &plain(&stem));
@@ -47,7 +48,8 @@ pub fn export(
         .bitmaps
         .iter()
         .map(|(name, bitmap)| {
-            let encode = |out: &mut dyn Write| encode_png(&bitmap.picture().clone().into(), &[], out);
+            let encode =
+                |out: &mut dyn Write| encode_png(&bitmap.picture().clone().into(), &[], out);
             (job.output.with_file_name(name), encode)
         })
         .collect();

@@ -12,6 +12,7 @@ use crate::notation::Color;
 use crate::output::{
     frame_name, prepare_folder, remove_frames, slug, write_json, write_json_lines, write_png,
 };
+use crate::scene::Reach;
 use crate::timeline::{Film, Timeline};
 use crate::tracer::RayCounts;
 
@@ -74,8 +75,9 @@ pub fn render(job: &RenderJob, progress: &dyn Progress) -> Result<Summary, JobEr
     for (input, name) in job.inputs.iter().zip(folder_names(&job.inputs)) {
         batches.push(read_batch(job, input, job.out.join(name), progress)?);
     }
-    let mut run =
-        Run { job, progress, studio: Studio::new(&job.picture)?, summary: Summary::default() };
+    let reach = Reach { moves: job.film.is_some(), orbit: job.orbit };
+    let studio = Studio::new(&job.picture, reach)?;
+    let mut run = Run { job, progress, studio, summary: Summary::default() };
     for batch in &batches {
         keep_out(job, &batch.folder)?;
         prepare_folder(&batch.folder)?;

@@ -9,7 +9,7 @@ use super::{JobError, shown};
 use crate::assets::{Assets, SetName};
 use crate::config::{Config, Render, Sampling};
 use crate::game::printable;
-use crate::scene::Stage;
+use crate::scene::{Reach, Stage};
 use crate::timeline::Frame;
 use crate::tracer::{self, Antialiasing, RayCounts};
 
@@ -42,10 +42,10 @@ pub(super) struct SettingsRecord<'a> {
     config: &'a Config,
 }
 
-/// Sets the stage for pictures with `settings`.
-pub(super) fn stage(settings: &PictureSettings) -> Result<Stage, JobError> {
+/// Sets the stage for pictures with `settings` of frames that reach as far as `reach`.
+pub(super) fn stage(settings: &PictureSettings, reach: Reach) -> Result<Stage, JobError> {
     let assets = Assets::load(&settings.config, &settings.set)?;
-    Ok(Stage::new(&settings.config, &assets)?)
+    Ok(Stage::new(&settings.config, &assets, reach)?)
 }
 
 fn antialiasing(render: &Render) -> Antialiasing {
@@ -66,11 +66,11 @@ pub(super) struct Studio<'a> {
 }
 
 impl<'a> Studio<'a> {
-    pub fn new(settings: &'a PictureSettings) -> Result<Studio<'a>, JobError> {
+    pub fn new(settings: &'a PictureSettings, reach: Reach) -> Result<Studio<'a>, JobError> {
         let threads = settings.threads.unwrap_or(0);
         Ok(Studio {
             settings,
-            stage: stage(settings)?,
+            stage: stage(settings, reach)?,
             threads: rayon::ThreadPoolBuilder::new()
                 .num_threads(threads)
                 .build()

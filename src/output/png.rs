@@ -14,7 +14,11 @@ use super::{OutputError, write_whole};
 ///
 /// # Errors
 /// What `out` gives.
-pub fn encode_png(picture: &DynamicImage, texts: &[(&str, String)], out: impl Write) -> io::Result<()> {
+pub fn encode_png(
+    picture: &DynamicImage,
+    texts: &[(&str, String)],
+    out: impl Write,
+) -> io::Result<()> {
     let mut encoder = Encoder::new(out, picture.width(), picture.height());
     let (color, bytes) = match picture {
         DynamicImage::ImageRgba8(picture) => (ColorType::Rgba, Cow::Borrowed(picture.as_raw())),

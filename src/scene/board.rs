@@ -10,7 +10,9 @@ use super::texture::Place;
 use super::{Object, Surface};
 use crate::config::{Edge, Scheme};
 use crate::geometry::transform::{rotation_y, translation};
-use crate::geometry::{ControlPoint, Csg, Cuboid, CurveError, Normals, Outline, Plane, Prism};
+use crate::geometry::{
+    Bounds, ControlPoint, Csg, Cuboid, CurveError, Normals, Outline, Plane, Prism,
+};
 
 /// Width of a square in world units.
 pub const SQUARE: f64 = 4.0;
@@ -66,6 +68,12 @@ fn stepped(scheme: &Scheme, materials: &Materials) -> Result<Vec<Object>, Materi
     ])
 }
 
+/// What the board fills, without the table.
+pub fn bounds() -> Bounds {
+    let Cuboid { min, max } = block(HALF + FRAME, -DEPTH, 0.0);
+    Bounds { min, max }
+}
+
 /// A flat square block round the board's middle.
 fn block(half_width: f64, bottom: f64, top: f64) -> Cuboid {
     let half = DVec3::new(half_width, 0.0, half_width);
@@ -111,10 +119,8 @@ const MOULDING: [(f64, f64, bool); 8] = [
 
 fn section() -> Result<Prism, CurveError> {
     let half = HALF + FRAME;
-    let right = MOULDING.map(|(inwards, y, corner)| ControlPoint {
-        at: DVec2::new(half - inwards, y),
-        corner,
-    });
+    let right = MOULDING
+        .map(|(inwards, y, corner)| ControlPoint { at: DVec2::new(half - inwards, y), corner });
     let left = right.map(|point| ControlPoint { at: point.at * DVec2::new(-1.0, 1.0), ..point });
     let outline = Outline::new(right.into_iter().chain(left.into_iter().rev()).collect())?;
     Prism::new(&outline, 4, Normals::Smooth, -half, half)

@@ -2,41 +2,61 @@
 
 use glam::DVec3;
 
-use crate::config;
+use crate::config::Pose;
 use crate::geometry::Ray;
 use crate::geometry::transform::{rotation_y, sin_cos};
 
-/// A pinhole camera in a left-handed world: x to the right, y up, z *into* the picture.
+/// How far from what it shows a camera in parallel projection stands, in world units.
+pub const FAR: f64 = 200.0;
+
+/// A camera in a left-handed world: x to the right, y up, z *into* the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     position: DVec3,
     right: DVec3,
     up: DVec3,
     forward: DVec3,
-    /// Half of the picture's width, as seen at distance 1.
+    projection: Projection,
+    /// Half of the picture's width: as seen at distance 1 in perspective, in world units in
+    /// parallel projection.
     half_width: f64,
 }
 
+/// Where rays come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Projection {
+    /// All from the camera's place, as through a pinhole.
+    Perspective,
+    /// Each from its own place beside it, all in one direction.
+    Parallel,
+}
+
 impl Camera {
-    /// Sets the camera up. Its true angle from left to right is half of `fov`: the thesis takes
-    /// `h = FOV·π/180/2` and a distance of `(width/2) / tan(h/2)` (Turek 2008, 4.3).
-    pub fn new(settings: &config::Camera) -> Camera {
-        let forward = (settings.look_at - settings.position).normalize();
+    /// A camera by its place, its directions to the right, upwards and forward, and half of the
+    /// width that it sees: at distance 1 in perspective, anywhere in parallel projection.
+    pub fn new(
+        position: DVec3,
+        [right, up, forward]: [DVec3; 3],
+        projection: Projection,
+        half_width: f64,
+    ) -> Camera {
+        Camera { position, right, up, forward, projection, half_width }
+    }
+
+    /// The pinhole camera that stands free. Its true angle from left to right is half of `fov`: the
+    /// thesis takes `h = FOV·π/180/2` and a distance of `(width/2) / tan(h/2)` (Turek 2008, 4.3).
+    pub fn free(pose: &Pose) -> Camera {
+        let forward = (pose.look_at - pose.position).normalize();
         // Straight up or down there is no upright; rank 8 then points up in the picture.
         let upright =
             if forward.cross(DVec3::Y).length_squared() < 1e-18 { DVec3::Z } else { DVec3::Y };
         let level = upright.cross(forward).normalize();
         let above = forward.cross(level);
         // A positive roll turns a ray from x towards y, which turns the picture clockwise.
-        let (sin, cos) = sin_cos(settings.z_rot);
-        let (sin_half, cos_half) = sin_cos(settings.fov / 4.0);
-        Camera {
-            position: settings.position,
-            right: level * cos + above * sin,
-            up: above * cos - level * sin,
-            forward,
-            half_width: sin_half / cos_half,
-        }
+        let (sin, cos) = sin_cos(pose.z_rot);
+        let (sin_half, cos_half) = sin_cos(pose.fov / 4.0);
+        let axes = [level * cos + above * sin, above * cos - level * sin, forward];
+        Camera::new(pose.position, axes, Projection::Perspective, sin_half / cos_half)
     }
 
     /// This camera after a turn about the upright line through `middle`, in degrees; positive is
@@ -48,8 +68,16 @@ impl Camera {
             right: turn.transform_vector3(self.right),
             up: turn.transform_vector3(self.up),
             forward: turn.transform_vector3(self.forward),
-            half_width: self.half_width,
+            ..*self
         }
+    }
+
+    /// From which side of the board it looks, in degrees from White's, anticlockwise as seen from
+    /// above.
+    pub fn azimuth(&self) -> f64 {
+        // Straight down, what points up in the picture is the way ahead.
+        let ahead = if self.forward.y.abs() > 1.0 - 1e-9 { self.up } else { self.forward };
+        libm::atan2(-ahead.x, ahead.z).to_degrees()
     }
 
     /// Where it stands.
@@ -62,9 +90,25 @@ impl Camera {
         [self.right, self.up, self.forward]
     }
 
-    /// The width that the whole picture shows at distance 1.
+    /// Where its rays come from.
+    pub fn projection(&self) -> Projection {
+        self.projection
+    }
+
+    /// The width that the whole picture shows: at distance 1 in perspective, anywhere in parallel
+    /// projection.
     pub fn width(&self) -> f64 {
         2.0 * self.half_width
+    }
+
+    /// The width that one of `across` equal parts of the picture's width stands for, per unit of
+    /// distance; in parallel projection as it is at [`FAR`], where such cameras are put.
+    pub fn spread(&self, across: u32) -> f64 {
+        let width = self.width() / f64::from(across);
+        match self.projection {
+            Projection::Perspective => width,
+            Projection::Parallel => width / FAR,
+        }
     }
 
     /// The ray of length 1 through the point (`x`, `y`) of a picture of `width` × `height` pixels;
@@ -73,9 +117,12 @@ impl Camera {
         let pixel = 2.0 * self.half_width / f64::from(width);
         let across = (x - f64::from(width) / 2.0) * pixel;
         let upwards = (f64::from(height) / 2.0 - y) * pixel;
-        Ray {
-            origin: self.position,
-            direction: (self.forward + self.right * across + self.up * upwards).normalize(),
+        let aside = self.right * across + self.up * upwards;
+        match self.projection {
+            Projection::Perspective => {
+                Ray { origin: self.position, direction: (self.forward + aside).normalize() }
+            }
+            Projection::Parallel => Ray { origin: self.position + aside, direction: self.forward },
         }
     }
 }
@@ -83,7 +130,6 @@ impl Camera {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::{Config, Look};
 
     fn seen_at(camera: &Camera, point: DVec3) -> (f64, f64) {
         let to = point - camera.position;
@@ -93,9 +139,8 @@ mod tests {
 
     #[test]
     fn the_world_is_left_handed() {
-        let settings =
-            config::Camera { position: DVec3::new(14.0, 20.0, -30.0), ..Config::new(Look::Thesis).camera };
-        let camera = Camera::new(&settings);
+        let pose = Pose { position: DVec3::new(14.0, 20.0, -30.0), ..Pose::default() };
+        let camera = Camera::free(&pose);
         let (a_file, _) = seen_at(&camera, DVec3::ZERO);
         let (h_file, first_rank) = seen_at(&camera, DVec3::new(28.0, 0.0, 0.0));
         let (_, eighth_rank) = seen_at(&camera, DVec3::new(28.0, 0.0, 28.0));
@@ -105,28 +150,40 @@ mod tests {
 
     #[test]
     fn a_fov_of_90_sees_45_degrees() {
-        let camera = Camera::new(&Config::new(Look::Thesis).camera);
+        let camera = Camera::free(&Pose::default());
         let [left, right] = [0.0, 1000.0].map(|x| camera.ray(x, 300.0, 1000, 600).direction);
         assert!((left.angle_between(right).to_degrees() - 45.0).abs() < 1e-9);
     }
 
     #[test]
     fn positive_roll_turns_rays_from_x_towards_y() {
-        let mut settings = Config::new(Look::Thesis).camera;
-        let straight = Camera::new(&settings);
-        settings.z_rot = 90.0;
-        let rolled = Camera::new(&settings);
+        let mut pose = Pose::default();
+        let straight = Camera::free(&pose);
+        pose.z_rot = 90.0;
+        let rolled = Camera::free(&pose);
         assert!(rolled.right.distance(straight.up) < 1e-12);
         assert!(rolled.up.distance(-straight.right) < 1e-12);
     }
 
     #[test]
     fn straight_down_has_rank_8_on_top() {
-        let settings =
-            config::Camera { position: DVec3::new(14.0, 60.0, 14.0), ..Config::new(Look::Thesis).camera };
-        let camera = Camera::new(&settings);
+        let pose = Pose { position: DVec3::new(14.0, 60.0, 14.0), ..Pose::default() };
+        let camera = Camera::free(&pose);
         assert_eq!(seen_at(&camera, DVec3::new(14.0, 0.0, 14.0)), (0.0, 0.0));
         let (x, y) = seen_at(&camera, DVec3::new(0.0, 0.0, 28.0));
         assert!(x < 0.0 && y > 0.0);
+    }
+
+    #[test]
+    fn parallel_rays_cover_the_same_width_at_any_distance() {
+        let axes = [DVec3::X, DVec3::Y, DVec3::Z];
+        let camera = Camera::new(DVec3::ZERO, axes, Projection::Parallel, 7.0);
+        for distance in [0.0, 50.0] {
+            let [left, right] = [0.0, 300.0].map(|x| camera.ray(x, 100.0, 300, 200).at(distance));
+            assert_eq!(
+                (left, right),
+                (DVec3::new(-7.0, 0.0, distance), DVec3::new(7.0, 0.0, distance))
+            );
+        }
     }
 }

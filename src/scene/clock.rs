@@ -10,8 +10,8 @@ use super::material::{MaterialError, Materials};
 use super::{Mapping, Material, Object, Surface, Texture};
 use crate::assets::Bitmap;
 use crate::config::{self, Clock, Coat, Finish};
-use crate::geometry::Cuboid;
 use crate::geometry::transform::sin_cos;
+use crate::geometry::{Bounds, Cuboid};
 
 /// Where the case stands: on the table, on the side of the a-file.
 const CASE: Cuboid = Cuboid {
@@ -63,8 +63,16 @@ pub fn clock(clock: &Clock, materials: &Materials) -> Result<[Object; 2], Materi
     };
     Ok([
         Object::standing(CASE, materials.surface(&clock.case)?),
-        Object::standing(plate, Surface::Uniform(Material { finish, coat: Coat::default(), texture })),
+        Object::standing(
+            plate,
+            Surface::Uniform(Material { finish, coat: Coat::default(), texture }),
+        ),
     ])
+}
+
+/// What the clock fills.
+pub fn bounds() -> Bounds {
+    Bounds { min: CASE.min, max: CASE.max + DVec3::X * THICKNESS }
 }
 
 /// Paints a face of `width` × `height` world units with a dial for each of two times, which are in

@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
-use super::texture::{Noise, Place, linear_light};
 use super::board::Joinery;
+use super::texture::{Noise, Place, linear_light};
 use super::{Mapping, Texture};
 use crate::assets::Bitmap;
 use crate::config::{self, Coat, Config, Finish, Shading};

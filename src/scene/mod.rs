@@ -7,6 +7,8 @@
 mod board;
 mod camera;
 mod clock;
+mod facing;
+mod framing;
 mod mapping;
 mod material;
 mod models;
@@ -15,13 +17,15 @@ mod room;
 mod stage;
 mod texture;
 mod timber;
+mod view;
 
-pub use camera::Camera;
+pub use camera::{Camera, Projection};
 pub use mapping::Mapping;
 pub use material::{Material, MaterialError, Rgb, Surface};
 pub use room::{Daylight, Room, Softbox};
 pub use stage::Stage;
 pub use texture::{Noise, Place, Texture, linear_light};
+pub use view::Reach;
 
 use crate::config::Light;
 use std::sync::Arc;

@@ -30,8 +30,8 @@ pub fn fractal(point: DVec3, octaves: u32) -> f64 {
 
 /// Whole numbers, mixed.
 pub fn hash(a: u64, b: u64) -> u64 {
-    let mut hash =
-        a.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ b.wrapping_mul(0xC2B2_AE3D_27D4_EB4F).rotate_left(17);
+    let mut hash = a.wrapping_mul(0x9E37_79B9_7F4A_7C15)
+        ^ b.wrapping_mul(0xC2B2_AE3D_27D4_EB4F).rotate_left(17);
     for _ in 0..2 {
         hash ^= hash >> 32;
         hash = hash.wrapping_mul(0xD6E8_FEB8_6659_FD93);

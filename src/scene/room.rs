@@ -80,7 +80,8 @@ impl Room {
     /// What a mirror at `point` sees along `direction` (of length 1) when nothing stands in the
     /// way, blurred as by a `roughness` of 0 to 1.
     pub fn radiance(&self, point: DVec3, direction: DVec3, roughness: f64) -> Rgb {
-        let seen = |softbox: &Softbox| softbox.radiance * softbox.cover(point, direction, roughness);
+        let seen =
+            |softbox: &Softbox| softbox.radiance * softbox.cover(point, direction, roughness);
         self.softboxes.iter().map(seen).fold(sky(&self.sky, direction.y), |sum, seen| sum + seen)
     }
 }

@@ -6,10 +6,11 @@ use glam::DVec3;
 
 use super::board::{MIDDLE, SQUARE, board};
 use super::clock::clock;
+use super::facing::Facing;
 use super::material::{MaterialError, Materials};
 use super::models::model;
 use super::noise::hash;
-use super::{Camera, Object, Rgb, Room, Scene, Surface};
+use super::{Camera, Object, Reach, Rgb, Room, Scene, Surface, view};
 use crate::assets::Assets;
 use crate::config::{Config, Light, Shading};
 use crate::geometry::transform::translation;
@@ -35,6 +36,7 @@ pub struct Stage {
     fixed: Vec<Object>,
     lights: Vec<Light>,
     camera: Camera,
+    facing: Facing,
     background: Option<Rgb>,
     room: Option<Room>,
     max_depth: u32,
@@ -43,12 +45,13 @@ pub struct Stage {
 }
 
 impl Stage {
-    /// Sets the stage as `config` says, with `assets` that were loaded for it.
+    /// Sets the stage as `config` says, with `assets` that were loaded for it, for frames that reach as
+    /// far as `reach`.
     ///
     /// # Errors
     /// When `config` names a material that it does not have, or `assets` lack a picture. Neither
     /// happens with settings that were read from a file.
-    pub fn new(config: &Config, assets: &Assets) -> Result<Stage, MaterialError> {
+    pub fn new(config: &Config, assets: &Assets, reach: Reach) -> Result<Stage, MaterialError> {
         let materials = Materials { config, bitmaps: &assets.bitmaps };
         let scheme = config.scheme();
         let mut fixed = board(&scheme, &materials)?;
@@ -59,18 +62,19 @@ impl Stage {
             fixed.push(model(settings, &materials)?);
         }
         let set = assets.set.clone();
+        let camera = view::camera(config, &set, reach);
         Ok(Stage {
             pieces: [set.pawn, set.knight, set.bishop, set.rook, set.queen, set.king].map(Arc::new),
-            surfaces: [
-                materials.surface(&scheme.white)?,
-                materials.surface(&scheme.black)?,
-            ],
+            surfaces: [materials.surface(&scheme.white)?, materials.surface(&scheme.black)?],
             fixed,
             lights: config.lights.clone(),
-            camera: Camera::new(&config.camera),
+            room: (config.render.shading == Shading::Studio).then(|| {
+                let turn = if config.room.turns { camera.azimuth() } else { 0.0 };
+                Room::new(&config.room, &config.lights, turn)
+            }),
+            facing: Facing::new(config.knights, &camera),
+            camera,
             background: scheme.background,
-            room: (config.render.shading == Shading::Studio)
-                .then(|| Room::new(&config.room, &config.lights, 0.0)),
             max_depth: config.render.max_depth,
             max_distance: config.render.max_distance,
             snell_index: config.snell_index,
@@ -109,7 +113,10 @@ impl Stage {
         };
         let place = DVec3::new(spot.file, spot.height, spot.rank) * SQUARE + DVec3::Y * FELT;
         Object {
-            body: Placed::new(self.pieces[solid].clone(), translation(place)),
+            body: Placed::new(
+                self.pieces[solid].clone(),
+                translation(place) * self.facing.turn(piece),
+            ),
             surface: self.surfaces[match piece.color {
                 Color::White => 0,
                 Color::Black => 1,

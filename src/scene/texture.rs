@@ -136,11 +136,7 @@ const MARBLE_MEAN: f64 = 1.5 - 4.0 / PI;
 /// 61966-2-1).
 pub fn linear_light(color: Rgb) -> Rgb {
     let linear = |channel: f64| {
-        if channel <= 0.04045 {
-            channel / 12.92
-        } else {
-            libm::pow((channel + 0.055) / 1.055, 2.4)
-        }
+        if channel <= 0.04045 { channel / 12.92 } else { libm::pow((channel + 0.055) / 1.055, 2.4) }
     };
     Rgb::from_array(color.to_array().map(linear))
 }
@@ -186,7 +182,8 @@ mod tests {
             for step in 0..2000 {
                 let point = DVec3::new(0.37, -0.71, 0.13) * f64::from(step);
                 let change = |by: DVec3| {
-                    let change = (wood.color(at(point + by), 0.0) - wood.color(at(point), 0.0)).x.abs();
+                    let change =
+                        (wood.color(at(point + by), 0.0) - wood.color(at(point), 0.0)).x.abs();
                     change.min(1.0 - change)
                 };
                 lengthways += change(along * 0.05);

@@ -6,6 +6,7 @@
 mod motion;
 mod pieces;
 
+pub use motion::{BESIDE, CARRIED};
 pub use pieces::{Identities, Mover, Spot};
 
 use crate::game::Game;

@@ -41,8 +41,7 @@ pub fn render(
     };
     let mut picture = Canvas::new(width, height, scene.background.is_none());
     let rows = 0..height as usize;
-    let counts =
-        picture.paint(rows, |x, y, counts| exposure.pixel(x as u32, y as u32, counts));
+    let counts = picture.paint(rows, |x, y, counts| exposure.pixel(x as u32, y as u32, counts));
     (picture.into_picture(), counts)
 }
 
@@ -90,7 +89,7 @@ impl Exposure<'_> {
         let camera = &self.scene.camera;
         let ray = camera.ray(f64::from(x) + dx, f64::from(y) + dy, width, height);
         let across = f64::from(self.first).sqrt().min(4.0);
-        let spread = camera.width() / (f64::from(width) * across);
+        let spread = camera.spread(width) / across;
         let Glimpse { light, cover } = self.studio.trace(ray, spread, &numbers, counts);
         Glimpse { light: light.min(Rgb::splat(BRIGHTEST)), cover }
     }

@@ -99,7 +99,7 @@ impl Easel<'_> {
     /// The ray through a place of the picture, one of `side` across its pixel.
     fn sample(&self, x: f64, y: f64, side: u32, counts: &mut RayCounts) -> Sample {
         let ray = self.scene.camera.ray(x, y, self.width, self.height);
-        let spread = self.scene.camera.width() / f64::from(self.width * side);
+        let spread = self.scene.camera.spread(self.width * side);
         self.tracer.trace(ray, spread, counts)
     }
 }

@@ -240,7 +240,8 @@ impl<'a> Studio<'a> {
         let weight = flight.weight * share.max_element();
         if weight >= MIRRORS_FROM && flight.depth < self.world.scene.max_depth {
             let from = flight.depth * purpose::STEP;
-            let blurred = (exact + ball(numbers.pair(from + purpose::MIRROR)) * roughness).normalize();
+            let blurred =
+                (exact + ball(numbers.pair(from + purpose::MIRROR)) * roughness).normalize();
             let direction = if blurred.dot(meeting.outward) > 0.0 { blurred } else { exact };
             let ray = Ray { origin: meeting.leaving, direction };
             counts.reflected += 1;

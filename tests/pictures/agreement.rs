@@ -9,7 +9,7 @@ use std::sync::Arc;
 use crate::{CLOCK, MAPPED, difference, letter, lightsquare, read};
 use glam::{DAffine3, DVec2, DVec3};
 use image::RgbImage;
-use lightsquare::config::{self, Coat, Config, Finish, Look};
+use lightsquare::config::{Coat, Config, Finish, Look, Pose};
 use lightsquare::export::pov;
 use lightsquare::geometry::transform::{rotation_x, rotation_y, translation};
 use lightsquare::geometry::{
@@ -53,6 +53,9 @@ FOV=60
 ";
 
 const ABOVE: &str = "[Camera]\nPosition=14,60,14\nLookAt=14,0,14\nFOV=80\n";
+
+/// In parallel projection.
+const TOP: &str = "[Camera]\nView=top\nOrientation=black\n";
 
 fn has_povray() -> bool {
     let found = Command::new("povray").arg("--version").output().is_ok();
@@ -112,17 +115,19 @@ fn positions_look_as_povray_shows_them() {
         return;
     }
     let start = "rnbqkbnr/pppppppp/8/8/8/8/PPPPPPPP/RNBQKBNR";
-    let cases: [(&str, &[&str], &str); 7] = [
+    let cases: [(&str, &[&str], &str); 8] = [
         ("start", &["--fen", start], ""),
         ("opera, mate", &[OPERA, "--at", "17w"], ""),
         ("opera, long castling, from above", &[OPERA, "--at", "12w"], ABOVE),
+        ("opera, in parallel projection", &[OPERA, "--at", "9w"], TOP),
         ("clear pieces", &["--white", "DD1PE2", "--black", "SD3"], CLEAR),
         ("bitmaps", &["--white", "KD1"], MAPPED),
         ("a glass ball", &["--white", "PA1", "--black", "KE8"], GLASS_BALL),
         ("the clock", &["--white", "KE1DD1PE2", "--black", "KE8PD4"], CLOCK),
     ];
     for (name, subject, settings) in cases {
-        let size = if settings.is_empty() || settings == ABOVE { [1000, 600] } else { [500, 300] };
+        let is_large = ["", ABOVE, TOP].contains(&settings);
+        let size = if is_large { [1000, 600] } else { [500, 300] };
         let folder = tempfile::tempdir().unwrap();
         let here = folder.path();
         std::fs::write(here.join("settings.ini"), settings).unwrap();
@@ -147,7 +152,8 @@ const MATTE: Finish = Finish {
 };
 
 fn object(solid: Csg, finish: Finish, color: [f64; 3], place: DAffine3) -> Object {
-    let material = Material { finish, coat: Coat::default(), texture: Texture::Plain(color.into()) };
+    let material =
+        Material { finish, coat: Coat::default(), texture: Texture::Plain(color.into()) };
     let surface = Surface::Uniform(material);
     Object { body: Placed::new(Arc::new(solid), place), surface, seed: 0 }
 }
@@ -198,7 +204,7 @@ fn carvings() -> Scene {
             object(lathe(), MATTE, [0.7, 0.7, 0.2], at(6.0, 9.0)),
         ],
         lights: Config::new(Look::Thesis).lights,
-        camera: Camera::new(&config::Camera {
+        camera: Camera::free(&Pose {
             position: DVec3::new(2.0, 10.0, -22.0),
             look_at: DVec3::new(1.0, 2.5, 2.0),
             fov: 80.0,

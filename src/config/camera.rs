@@ -1,0 +1,122 @@
+//! `[Camera]`: where pictures are seen from.
+
+use glam::DVec3;
+use serde::Serialize;
+
+use super::Fault;
+use super::ini::Section;
+use super::keys::{Key, key, read_section};
+use super::values::{Choice, Number, PLACE};
+
+/// Where the camera stands.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Camera {
+    pub view: View,
+    pub orientation: Orientation,
+    /// What counts where the view is [`View::Free`].
+    #[serde(flatten)]
+    pub pose: Pose,
+}
+
+/// The camera by name. All but the last two show the whole board, whatever the picture's shape.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum View {
+    /// From White's side, high enough and so far aside that no piece hides another.
+    White,
+    /// The same from Black's side.
+    Black,
+    /// Straight down, in parallel projection, rank 8 on top.
+    Top,
+    /// From the side of the h-file.
+    Side,
+    /// As White sees the board.
+    Player,
+    /// The thesis's, [`Pose::default`].
+    Thesis,
+    /// As [`Camera::pose`] says.
+    Free,
+}
+
+/// Views, by name.
+pub const VIEWS: [(&str, View); 7] = [
+    ("white", View::White),
+    ("black", View::Black),
+    ("top", View::Top),
+    ("side", View::Side),
+    ("player", View::Player),
+    ("thesis", View::Thesis),
+    ("free", View::Free),
+];
+
+/// From whose side of the board.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Orientation {
+    /// As the view is made.
+    White,
+    /// Half a turn about the board's middle from there.
+    Black,
+}
+
+/// Orientations, by name.
+pub const ORIENTATIONS: [(&str, Orientation); 2] =
+    [("white", Orientation::White), ("black", Orientation::Black)];
+
+/// A free camera's place and what it looks at; the default is the thesis's.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Pose {
+    /// In world units.
+    pub position: DVec3,
+    /// In world units; another point than `position`.
+    pub look_at: DVec3,
+    /// In degrees, **twice** the true angle from the left edge of the picture to the right: the
+    /// thesis halves it twice, and its files mean it so.
+    pub fov: f64,
+    /// Roll about the view axis in degrees; positive turns a ray from x towards y in camera
+    /// space, so the picture turns clockwise.
+    pub z_rot: f64,
+}
+
+impl Default for Pose {
+    fn default() -> Pose {
+        Pose {
+            position: DVec3::new(45.0, 15.0, -30.0),
+            look_at: DVec3::new(14.0, 0.0, 14.0),
+            fov: 90.0,
+            z_rot: 0.0,
+        }
+    }
+}
+
+pub const KEYS: [Key<Camera>; 6] = [
+    key!("View", Camera, view: Choice(&VIEWS)),
+    key!("Orientation", Camera, orientation: Choice(&ORIENTATIONS)),
+    key!("Position", Camera, pose.position: PLACE).only(FREE, is_free),
+    key!("LookAt", Camera, pose.look_at: PLACE).only(FREE, is_free),
+    key!("FOV", Camera, pose.fov: Number(1.0, 340.0)).only(FREE, is_free),
+    key!("ZRot", Camera, pose.z_rot: Number(-360.0, 360.0)).only(FREE, is_free),
+];
+
+const FREE: &str = "a camera with View=free";
+
+fn is_free(camera: &Camera) -> bool {
+    camera.view == View::Free
+}
+
+/// Reads the section over what `camera` is without it. One that gives a pose and no view, as the
+/// thesis's files do, means a free camera.
+pub fn read(section: &Section, camera: &mut Camera, faults: &mut Vec<Fault>) {
+    let gives =
+        |name: &str| section.entries.iter().any(|entry| entry.key.eq_ignore_ascii_case(name));
+    if !gives("View") && KEYS.iter().any(|key| key.only.is_some() && gives(key.name)) {
+        camera.view = View::Free;
+    }
+    read_section(section, &KEYS, camera, faults);
+    if camera.pose.position.distance(camera.pose.look_at) < 1e-9 {
+        faults.push(Fault {
+            line: section.line,
+            message: "the camera's LookAt is its own Position, expected another point".to_owned(),
+        });
+    }
+}

@@ -1,0 +1,196 @@
+//! Named cameras: from which side, how high and through which lens they show the board, and what
+//! of it they have to hold.
+
+use glam::DVec3;
+
+use super::board::{self, MIDDLE, SQUARE};
+use super::camera::Camera;
+use super::{clock, framing};
+use crate::assets::PieceSet;
+use crate::config::{self, Config, Orientation, Pose, View};
+use crate::geometry::transform::{rotation_x, rotation_y, translation};
+use crate::geometry::{Bounds, Solid};
+use crate::timeline::{BESIDE, CARRIED};
+
+/// What the pictures of a job may show besides positions at rest.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Reach {
+    /// Whether moves are under way: captured pieces are carried off beside the board.
+    pub moves: bool,
+    /// How far the camera turns about the board, in degrees.
+    pub orbit: f64,
+}
+
+/// A way to look at the board's middle.
+struct Stand {
+    /// Degrees above the board.
+    elevation: f64,
+    /// Degrees from White's side, anticlockwise as seen from above.
+    azimuth: f64,
+    /// Degrees that the longer side of the picture covers; nothing in parallel projection.
+    field: Option<f64>,
+}
+
+/// Degrees between the turns of an orbit that are looked at. Between two of them a corner reaches at
+/// most 0.1 % farther from the axis than in one.
+const ORBIT_STEP: f64 = 5.0;
+
+/// The camera that `config` asks for, before any orbit.
+pub fn camera(config: &Config, set: &PieceSet, reach: Reach) -> Camera {
+    let config::Camera { view, orientation, pose } = config.camera;
+    let half_turn = match orientation {
+        Orientation::White => 0.0,
+        Orientation::Black => 180.0,
+    };
+    let Some(Stand { elevation, azimuth, field }) = stand(view) else {
+        let pose = if view == View::Free { pose } else { Pose::default() };
+        let camera = Camera::free(&pose);
+        return if half_turn == 0.0 { camera } else { camera.orbited(MIDDLE, half_turn) };
+    };
+    let turn = rotation_y(azimuth + half_turn) * rotation_x(elevation);
+    let axes = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| turn.transform_vector3(axis));
+    let points = points(config, set, reach);
+    let aspect = f64::from(config.width) / f64::from(config.height);
+    match field {
+        Some(field) => framing::perspective(axes, field, &points, aspect),
+        None => framing::parallel(axes, &points, aspect),
+    }
+}
+
+/// Where the views that show the whole board stand.
+fn stand(view: View) -> Option<Stand> {
+    let (elevation, azimuth, field) = match view {
+        View::White => (45.0, 25.0, Some(26.0)),
+        View::Black => (45.0, 205.0, Some(26.0)),
+        View::Top => (90.0, 0.0, None),
+        View::Side => (35.0, 90.0, Some(26.0)),
+        View::Player => (32.0, 0.0, Some(36.0)),
+        View::Thesis | View::Free => return None,
+    };
+    Some(Stand { elevation, azimuth, field })
+}
+
+/// The corners of all that pictures must hold: the board, the set's tallest piece on every square,
+/// the clock where there is one, and what moves beside the board.
+fn points(config: &Config, set: &PieceSet, reach: Reach) -> Vec<DVec3> {
+    let men = [&set.pawn, &set.knight, &set.bishop, &set.rook, &set.queen, &set.king];
+    let man = men.iter().fold(Bounds::EMPTY, |all, man| all.union(man.bounds()));
+    // It may be turned whichever way.
+    let radius =
+        [man.min.x, man.min.z, man.max.x, man.max.z].map(f64::abs).into_iter().fold(0.0, f64::max);
+    let on = |file: f64, height: f64| {
+        let foot = DVec3::new(file, height, 0.0) * SQUARE;
+        let half = DVec3::new(radius, 0.0, radius);
+        let length = DVec3::Z * 7.0 * SQUARE;
+        Bounds { min: foot - half, max: foot + half + length + DVec3::Y * man.max.y }
+    };
+    let mut boxes = vec![board::bounds(), on(0.0, 0.0), on(7.0, 0.0)];
+    if config.clock.show {
+        boxes.push(clock::bounds());
+    }
+    if reach.moves {
+        boxes.extend([on(-BESIDE, CARRIED), on(7.0 + BESIDE, CARRIED)]);
+    }
+    // A camera that has turned one way sees the board turned the other way.
+    let steps = (reach.orbit.abs().min(360.0) / ORBIT_STEP).ceil();
+    let turned = |step: u32| {
+        let turn = rotation_y(-reach.orbit.clamp(-360.0, 360.0) * f64::from(step) / steps.max(1.0));
+        translation(MIDDLE) * turn * translation(-MIDDLE)
+    };
+    (0..=steps as u32)
+        .map(turned)
+        .flat_map(|turn| {
+            boxes.iter().flat_map(Bounds::corners).map(move |corner| turn.transform_point3(corner))
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::assets::{SetName, piece_set};
+    use crate::config::VIEWS;
+    use crate::geometry::Normals;
+    use crate::scene::Projection;
+
+    /// How far from the middle of its picture a point lies, 1 at the edges.
+    fn beyond(camera: &Camera, point: DVec3, aspect: f64) -> f64 {
+        let [right, up, forward] = camera.axes();
+        let to = point - camera.position();
+        let depth = match camera.projection() {
+            Projection::Perspective => to.dot(forward),
+            Projection::Parallel => 1.0,
+        };
+        let half = camera.width() / 2.0 * depth;
+        (to.dot(right) / half).abs().max((to.dot(up) / half * aspect).abs())
+    }
+
+    fn config(view: View, orientation: Orientation, [width, height]: [u32; 2]) -> Config {
+        let mut config = Config { width, height, ..Config::default() };
+        (config.camera.view, config.camera.orientation) = (view, orientation);
+        config
+    }
+
+    #[test]
+    fn named_views_hold_all_that_there_is_at_any_aspect() {
+        let set = piece_set(&SetName::Thesis, 1, Normals::Flat).unwrap();
+        let still = Reach::default();
+        let film = Reach { moves: true, orbit: 0.0 };
+        // The frame's corner, the top of a king on a8 and on h1, the clock's corner, a queen that is
+        // carried off.
+        let points: [(Reach, bool, DVec3); 5] = [
+            (still, false, DVec3::new(-4.2, -1.6, 32.2)),
+            (still, false, DVec3::new(0.0, 6.67, 28.0)),
+            (still, false, DVec3::new(28.0, 6.67, 0.0)),
+            (still, true, DVec3::new(-10.5, 5.2, 20.0)),
+            (film, false, DVec3::new(36.0, 21.56, 28.0)),
+        ];
+        for (name, view) in VIEWS.into_iter().filter(|(_, view)| stand(*view).is_some()) {
+            for orientation in [Orientation::White, Orientation::Black] {
+                for size in [[90, 160], [100, 100], [150, 100], [160, 90]] {
+                    for (reach, clock, point) in points {
+                        let mut config = config(view, orientation, size);
+                        config.clock.show = clock;
+                        let camera = camera(&config, &set, reach);
+                        let aspect = f64::from(size[0]) / f64::from(size[1]);
+                        let beyond = beyond(&camera, point, aspect);
+                        assert!(beyond < 1.0, "{name}, {orientation:?}, {size:?}: {point}");
+                    }
+                }
+            }
+        }
+    }
+
+    /// The board's corners stand out most when it is seen by a diagonal.
+    #[test]
+    fn an_orbit_holds_the_board_all_the_way() {
+        let set = piece_set(&SetName::Thesis, 1, Normals::Flat).unwrap();
+        let config = config(View::White, Orientation::White, [150, 100]);
+        let at_rest = camera(&config, &set, Reach::default());
+        let orbits = camera(&config, &set, Reach { moves: false, orbit: 90.0 });
+        let most = |camera: &Camera| {
+            let corner = |turn: u32| {
+                let camera = camera.orbited(MIDDLE, f64::from(turn));
+                let at = |x, z| beyond(&camera, DVec3::new(x, -1.6, z), 1.5);
+                at(-4.2, -4.2).max(at(32.2, -4.2)).max(at(-4.2, 32.2)).max(at(32.2, 32.2))
+            };
+            (0..=90).map(corner).fold(0.0, f64::max)
+        };
+        assert!(most(&at_rest) > 1.0 && most(&orbits) < 1.0);
+    }
+
+    #[test]
+    fn blacks_orientation_is_half_a_turn() {
+        let set = piece_set(&SetName::Thesis, 1, Normals::Flat).unwrap();
+        for (name, view) in VIEWS {
+            let [white, black] = [Orientation::White, Orientation::Black].map(|orientation| {
+                camera(&config(view, orientation, [150, 100]), &set, Reach::default())
+            });
+            let turned = white.orbited(MIDDLE, 180.0);
+            assert!(turned.position().distance(black.position()) < 1e-9, "{name}");
+            for (a, b) in turned.axes().into_iter().zip(black.axes()) {
+                assert!(a.distance(b) < 1e-9, "{name}");
+            }
+        }
+    }
+}
