@@ -1,7 +1,7 @@
 //! Prisms: a closed outline in the plane of x and y, pushed along the z axis.
 
 use glam::{DVec2, DVec3};
-use smallvec::SmallVec;
+use smallvec::{SmallVec, smallvec};
 
 use super::polygon::{Normals, Segment, surround};
 use super::{Bounds, CurveError, Hit, Outline, Ray, Shape, Solid, Span, Spans};
@@ -9,7 +9,40 @@ use super::{Bounds, CurveError, Hit, Outline, Ray, Shape, Solid, Span, Spans};
 /// What lies within an outline from one height along z to another.
 pub struct Prism {
     segments: Vec<Segment>,
+    tree: Vec<Node>,
     bounds: Bounds,
+}
+
+/// A run of segments in a box. Children follow their parent: the left one at once, the right one at
+/// `right`; a leaf has `right == 0` and holds segments `start` to `end`.
+struct Node {
+    middle: DVec2,
+    half: DVec2,
+    right: usize,
+    start: usize,
+    end: usize,
+}
+
+/// So many segments are asked one by one.
+const LEAF: usize = 4;
+
+/// Room for rounding in the boxes, as a share of the outline's size.
+const MARGIN: f64 = 1e-9;
+
+fn build(segments: &[Segment], start: usize, end: usize, tree: &mut Vec<Node>) {
+    let ends = segments[start..end].iter().flat_map(|segment| [segment.from, segment.to]);
+    let (min, max) = ends
+        .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(min, max), at| (min.min(at), max.max(at)));
+    let size = max.abs().max(min.abs()).max_element();
+    let half = (max - min) / 2.0 + MARGIN * size;
+    let index = tree.len();
+    tree.push(Node { middle: (min + max) / 2.0, half, right: 0, start, end });
+    if end - start > LEAF {
+        let middle = start.midpoint(end);
+        build(segments, start, middle, tree);
+        tree[index].right = tree.len();
+        build(segments, middle, end, tree);
+    }
 }
 
 impl Prism {
@@ -34,7 +67,9 @@ impl Prism {
             let DVec2 { x, y } = segment.from;
             [DVec3::new(x, y, back), DVec3::new(x, y, front)]
         });
-        Ok(Prism { bounds: Bounds::of(corners), segments })
+        let mut tree = Vec::new();
+        build(&segments, 0, segments.len(), &mut tree);
+        Ok(Prism { bounds: Bounds::of(corners), tree, segments })
     }
 
     /// The subdivided outline, anticlockwise from x towards y.
@@ -50,19 +85,32 @@ impl Prism {
         let (origin, direction) = (ray.origin.truncate(), ray.direction.truncate());
         let off = |point: DVec2| direction.perp_dot(point - origin);
         let mut hits: SmallVec<[Hit; 8]> = SmallVec::new();
-        for segment in &self.segments {
-            let (from, to) = (off(segment.from), off(segment.to));
-            if (from > 0.0) == (to > 0.0) {
+        let mut pending: SmallVec<[usize; 24]> = smallvec![0];
+        while let Some(index) = pending.pop() {
+            let node = &self.tree[index];
+            // All of a box on one side of the line is not crossed.
+            let reach = direction.x.abs() * node.half.y + direction.y.abs() * node.half.x;
+            if off(node.middle).abs() > reach {
                 continue;
             }
-            let share = from / (from - to);
-            let point = segment.from.lerp(segment.to, share);
-            let t = (point - origin).dot(direction) / direction.length_squared();
-            hits.push(Hit {
-                t,
-                normal: segment.normal.extend(0.0),
-                shading: segment.smooth_normal(share).extend(0.0),
-            });
+            if node.right != 0 {
+                pending.extend([node.right, index + 1]);
+                continue;
+            }
+            for segment in &self.segments[node.start..node.end] {
+                let (from, to) = (off(segment.from), off(segment.to));
+                if (from > 0.0) == (to > 0.0) {
+                    continue;
+                }
+                let share = from / (from - to);
+                let point = segment.from.lerp(segment.to, share);
+                let t = (point - origin).dot(direction) / direction.length_squared();
+                hits.push(Hit {
+                    t,
+                    normal: segment.normal.extend(0.0),
+                    shading: segment.smooth_normal(share).extend(0.0),
+                });
+            }
         }
         hits.sort_by(|a, b| a.t.total_cmp(&b.t));
         hits
