@@ -42,6 +42,9 @@ pub struct PictureArgs {
     /// From whose side of the board the camera looks; black turns it by half a turn
     #[arg(long, value_name = "COLOR", value_parser = one_of(&ORIENTATIONS), ignore_case = true)]
     orientation: Option<Orientation>,
+    /// Name files and ranks on the board's frame
+    #[arg(long)]
+    coordinates: bool,
     /// Wood and marble as plain colours
     #[arg(long)]
     plain: bool,
@@ -91,6 +94,7 @@ impl PictureArgs {
         config.camera.view = self.camera.unwrap_or(config.camera.view);
         config.camera.orientation = self.orientation.unwrap_or(config.camera.orientation);
         config.render.rays = self.ssrays.unwrap_or(config.render.rays);
+        config.board.coordinates |= self.coordinates;
         config.render.plain |= self.plain;
         let set = match self.set {
             SetArg::Thesis => SetName::Thesis,

@@ -127,6 +127,8 @@ pub struct Board {
     pub frame: String,
     /// The endless table that the board lies on, if any.
     pub table: Option<String>,
+    /// Whether files and ranks are named on the frame.
+    pub coordinates: bool,
 }
 
 /// The materials of the pieces, by name, and which way they face.
@@ -243,6 +245,7 @@ impl Config {
                 dark: "dark".to_owned(),
                 frame: "frame".to_owned(),
                 table: None,
+                coordinates: false,
             },
             pieces: Pieces {
                 white: "white".to_owned(),
@@ -291,7 +294,7 @@ impl Config {
 
     /// The pictures of the materials that are used.
     pub fn bitmaps(&self) -> BTreeSet<&PathBuf> {
-        let Board { light, dark, frame, table } = &self.board;
+        let Board { light, dark, frame, table, .. } = &self.board;
         let Pieces { white, black, .. } = &self.pieces;
         let clock = self.clock.show.then_some(&self.clock.case);
         let models = self.models.iter().map(|model| &model.material);

@@ -74,11 +74,12 @@ const NORMALS: Choice<Normals> = Choice(&[("flat", Normals::Flat), ("smooth", No
 const FILTERS: Choice<Filter> =
     Choice(&[("nearest", Filter::Nearest), ("bilinear", Filter::Bilinear), ("mip", Filter::Mip)]);
 
-const BOARD_KEYS: [Key<Board>; 4] = [
+const BOARD_KEYS: [Key<Board>; 5] = [
     key!("Light", Board, light: Name),
     key!("Dark", Board, dark: Name),
     key!("Frame", Board, frame: Name),
     key!("Table", Board, table: NameOrNone),
+    key!("Coordinates", Board, coordinates: YES_NO),
 ];
 
 const PIECES_KEYS: [Key<Pieces>; 3] = [
@@ -213,7 +214,7 @@ pub fn interpret(
         config.models = models;
     }
     // What a file does not mention is used too, and may be of a material that it changes.
-    let Config { board: Board { light, dark, frame, table }, pieces, clock, .. } = &config;
+    let Config { board: Board { light, dark, frame, table, .. }, pieces, clock, .. } = &config;
     uses.extend([
         Use { of: Part::Square, ..board_lines.uses("Light", light) },
         Use { of: Part::Square, ..board_lines.uses("Dark", dark) },

@@ -49,6 +49,16 @@ impl Surface {
         }
     }
 
+    /// The same, with other materials.
+    pub fn map(self, change: impl Fn(Material) -> Material) -> Surface {
+        match self {
+            Surface::Uniform(material) => Surface::Uniform(change(material)),
+            Surface::Chequer { origin, side, materials } => {
+                Surface::Chequer { origin, side, materials: materials.map(change) }
+            }
+        }
+    }
+
     /// Its materials.
     pub fn materials(&self) -> &[Material] {
         match self {

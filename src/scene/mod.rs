@@ -7,8 +7,10 @@
 mod board;
 mod camera;
 mod clock;
+mod coordinates;
 mod facing;
 mod framing;
+mod glyphs;
 mod mapping;
 mod material;
 mod models;
@@ -18,6 +20,7 @@ mod texture;
 mod view;
 
 pub use camera::{Camera, Projection};
+pub use coordinates::Side;
 pub use mapping::Mapping;
 pub use material::{Material, MaterialError, Rgb, Surface};
 pub use stage::Stage;

@@ -9,7 +9,7 @@ use super::clock::clock;
 use super::facing::Facing;
 use super::material::{MaterialError, Materials};
 use super::models::model;
-use super::{Camera, Object, Reach, Rgb, Scene, Surface, view};
+use super::{Camera, Object, Reach, Rgb, Scene, Side, Surface, view};
 use crate::assets::Assets;
 use crate::config::{Config, Light};
 use crate::geometry::transform::translation;
@@ -51,15 +51,15 @@ impl Stage {
     /// happens with settings that were read from a file.
     pub fn new(config: &Config, assets: &Assets, reach: Reach) -> Result<Stage, MaterialError> {
         let materials = Materials { config, bitmaps: &assets.bitmaps };
-        let mut fixed = board(&config.board, &materials)?;
+        let set = assets.set.clone();
+        let camera = view::camera(config, &set, reach);
+        let mut fixed = board(&config.board, &materials, Side::near(&camera))?;
         if config.clock.show {
             fixed.extend(clock(&config.clock, &materials)?);
         }
         for settings in &config.models {
             fixed.push(model(settings, &materials)?);
         }
-        let set = assets.set.clone();
-        let camera = view::camera(config, &set, reach);
         Ok(Stage {
             pieces: [set.pawn, set.knight, set.bishop, set.rook, set.queen, set.king].map(Arc::new),
             surfaces: [

@@ -3,10 +3,10 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use glam::{DVec3, Vec3Swizzles};
+use glam::{DVec2, DVec3, Vec3Swizzles};
 
 use super::noise::fractal;
-use super::{Mapping, Rgb};
+use super::{Mapping, Rgb, Side, coordinates};
 use crate::assets::{Beyond, Bitmap};
 use crate::config::{self, Axis, Filter};
 
@@ -29,6 +29,9 @@ pub enum Texture {
         colors: [Rgb; 2],
         noise: Noise,
     },
+    /// Coordinates on another texture, on the board's frame: their colour, and the side that they
+    /// are to be read from.
+    Lettered { ground: Box<Texture>, ink: Rgb, near: Side },
     /// A picture.
     Bitmap { bitmap: Arc<Bitmap>, mapping: Mapping, filter: Filter },
 }
@@ -57,6 +60,10 @@ impl Texture {
             Texture::Marble { colors, noise } => {
                 colors[0].lerp(colors[1], marble(point / noise.size, noise.octaves))
             }
+            Texture::Lettered { ground, ink, near } => {
+                let cover = coordinates::ink(point.x, point.z, *near, seen);
+                ground.color(point, seen).lerp(*ink, cover)
+            }
             Texture::Bitmap { bitmap, mapping, filter } => {
                 let (place, scale) = mapping.place(point);
                 let texels = (scale * bitmap.size()).max_element() * seen;
@@ -72,12 +79,22 @@ impl Texture {
     /// Wood and marble as one colour, the mean over a large body; others as they are.
     pub fn plain(self) -> Texture {
         match self {
-            // A ring has all its shades in equal shares.
-            Texture::Wood { colors, .. } => Texture::Plain(colors[0].lerp(colors[1], 0.5)),
-            Texture::Marble { colors, .. } => {
-                Texture::Plain(colors[0].lerp(colors[1], MARBLE_MEAN))
-            }
+            Texture::Wood { .. } | Texture::Marble { .. } => Texture::Plain(self.mean()),
             other => other,
+        }
+    }
+
+    /// The mean colour over a large body; of a picture that of its middle.
+    pub fn mean(&self) -> Rgb {
+        match self {
+            Texture::Plain(color) => *color,
+            // A ring has all its shades in equal shares.
+            Texture::Wood { colors, .. } => colors[0].lerp(colors[1], 0.5),
+            Texture::Marble { colors, .. } => colors[0].lerp(colors[1], MARBLE_MEAN),
+            Texture::Lettered { ground, .. } => ground.mean(),
+            Texture::Bitmap { bitmap, .. } => {
+                bitmap.color(DVec2::splat(0.5), Filter::Nearest, Beyond::Stays, 0.0)
+            }
         }
     }
 }
