@@ -52,6 +52,9 @@ pub struct PictureArgs {
     /// From whose side of the board the camera looks; black turns it by half a turn
     #[arg(long, value_name = "COLOR", value_parser = one_of(&ORIENTATIONS), ignore_case = true)]
     orientation: Option<Orientation>,
+    /// Name files and ranks on the board's frame
+    #[arg(long)]
+    coordinates: bool,
     /// Wood and marble as plain colours
     #[arg(long)]
     plain: bool,
@@ -128,6 +131,9 @@ impl PictureArgs {
         config.camera.view = self.camera.unwrap_or(config.camera.view);
         config.camera.orientation = self.orientation.unwrap_or(config.camera.orientation);
         config.render.rays = self.ssrays.unwrap_or(config.render.rays);
+        if self.coordinates {
+            config.parts.coordinates = Some(true);
+        }
         config.render.plain |= self.plain;
         if self.transparent {
             (config.parts.background, config.parts.table) = (Some(None), Some(None));

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::Look;
 use super::keys::{Key, key};
-use super::values::{Choice, ColorOrTransparent, Name, NameOrNone, Optional};
+use super::values::{Choice, ColorOrTransparent, Name, NameOrNone, Optional, YES_NO};
 
 /// What a `[Theme …]` section says, or what `[Board]`, `[Pieces]` and `[GlobalSettings]` say
 /// instead of the theme; what is left out is as beneath it.
@@ -19,6 +19,7 @@ pub struct Parts {
     pub edge: Option<Edge>,
     pub inlay: Option<Option<String>>,
     pub table: Option<Option<String>>,
+    pub coordinates: Option<bool>,
     pub white: Option<String>,
     pub black: Option<String>,
     pub background: Option<Option<DVec3>>,
@@ -35,6 +36,8 @@ pub struct Scheme {
     pub inlay: Option<String>,
     /// The endless table that the board lies on, if any.
     pub table: Option<String>,
+    /// Whether files and ranks are named on the frame.
+    pub coordinates: bool,
     pub white: String,
     pub black: String,
     /// What a ray sees that meets nothing, each channel 0 to 1 as it is written to the picture;
@@ -57,13 +60,14 @@ const EDGES: Choice<Edge> = Choice(&[("step", Edge::Step), ("moulded", Edge::Mou
 /// Where the names of materials stand in a theme.
 pub const MATERIAL_KEYS: [&str; 7] = ["Light", "Dark", "Frame", "Inlay", "Table", "White", "Black"];
 
-pub const BOARD_KEYS: [Key<Parts>; 6] = [
+pub const BOARD_KEYS: [Key<Parts>; 7] = [
     key!("Light", Parts, light: Optional(Name)),
     key!("Dark", Parts, dark: Optional(Name)),
     key!("Frame", Parts, frame: Optional(Name)),
     key!("Edge", Parts, edge: Optional(EDGES)),
     key!("Inlay", Parts, inlay: Optional(NameOrNone)),
     key!("Table", Parts, table: Optional(NameOrNone)),
+    key!("Coordinates", Parts, coordinates: Optional(YES_NO)),
 ];
 
 const OTHER_KEYS: [Key<Parts>; 3] = [
@@ -87,6 +91,7 @@ impl Parts {
             edge: self.edge.or(beneath.edge),
             inlay: self.inlay.clone().or(beneath.inlay.clone()),
             table: self.table.clone().or(beneath.table.clone()),
+            coordinates: self.coordinates.or(beneath.coordinates),
             white: self.white.clone().or(beneath.white.clone()),
             black: self.black.clone().or(beneath.black.clone()),
             background: self.background.or(beneath.background),
@@ -103,6 +108,7 @@ impl Parts {
             edge: self.edge.unwrap_or(Edge::Step),
             inlay: self.inlay.unwrap_or_default(),
             table: self.table.unwrap_or_default(),
+            coordinates: self.coordinates.unwrap_or_default(),
             white: name(self.white, "white"),
             black: name(self.black, "black"),
             background: self.background.unwrap_or(Some(DVec3::ZERO)),
@@ -176,6 +182,7 @@ fn theme(name: &str, materials: [&str; 7], background: DVec3) -> (String, Parts)
         edge: Some(edge),
         inlay: some(inlay),
         table: some(table),
+        coordinates: Some(matches!(name, "tournament" | "print")),
         white: Some(white),
         black: Some(black),
         background: Some(Some(background)),

@@ -1,6 +1,6 @@
 //! Scenes for POV-Ray 3.7, such that it computes what the tracer computes.
 //!
-//! What differs, and is said in the file: smooth normals (its lathes and prisms of straight
+//! What differs, and is said in the file: coordinates on the frame, which it does not get; smooth normals (its lathes and prisms of straight
 //! segments are shaded flat), MIP levels (it reads bitmaps between four texels), a limit of the
 //! distance, and wood and marble, which become its own patterns of noise. It also sees nothing of
 //! a surface that touches glass from outside (it takes no hit within 0.001 of a ray's origin), and
@@ -318,6 +318,10 @@ impl Writer<'_> {
                 );
                 line!(self, "{pad}  scale {size}");
                 line!(self, "{pad}}}");
+            }
+            Texture::Lettered { ground, .. } => {
+                line!(self, "{pad}// Coordinates in lightsquare, none here.");
+                self.pigment(ground, depth, transparency);
             }
             Texture::Bitmap { bitmap, mapping, filter, .. } => {
                 let name = self.bitmap(bitmap);

@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use glam::{DAffine3, DVec2, DVec3};
+use glam::{DVec2, DVec3};
 
 use super::material::{Material, MaterialError, Materials};
 use super::noise::hash;
 use super::texture::Place;
-use super::{Object, Surface};
+use super::{Object, Rgb, Side, Surface, Texture};
 use crate::config::{Edge, Scheme};
 use crate::geometry::transform::{rotation_y, translation};
 use crate::geometry::{
@@ -39,14 +39,27 @@ pub const DEPTH: f64 = 1.6;
 /// Where in the frame the inlay begins and ends, from the squares on.
 const INLAY: [f64; 2] = [0.0, 0.16];
 
-/// The board, and the table if there is one.
+/// The board, and the table if there is one; coordinates, where they are asked for, for a viewer who
+/// has the side `near` before him.
 ///
 /// # Errors
 /// When `scheme` names a material that is not there.
-pub fn board(scheme: &Scheme, materials: &Materials) -> Result<Vec<Object>, MaterialError> {
+pub fn board(
+    scheme: &Scheme,
+    materials: &Materials,
+    near: Side,
+) -> Result<Vec<Object>, MaterialError> {
+    let squares = [materials.material(&scheme.dark)?, materials.material(&scheme.light)?];
+    let mut frame = materials.material(&scheme.frame)?;
+    if scheme.coordinates {
+        frame = lettered(frame, &squares, near);
+    }
     let mut objects = match scheme.edge {
-        Edge::Step => stepped(scheme, materials)?,
-        Edge::Moulded => vec![moulded(scheme, materials)?],
+        Edge::Step => stepped(squares, frame),
+        Edge::Moulded => {
+            let inlay = scheme.inlay.as_ref().map(|name| materials.material(name)).transpose()?;
+            vec![moulded(squares, frame, inlay)]
+        }
     };
     if let Some(table) = &scheme.table {
         let plane = Plane::new(DVec3::Y * -DEPTH, DVec3::Y);
@@ -56,16 +69,22 @@ pub fn board(scheme: &Scheme, materials: &Materials) -> Result<Vec<Object>, Mate
 }
 
 /// A slab of squares on a block.
-fn stepped(scheme: &Scheme, materials: &Materials) -> Result<Vec<Object>, MaterialError> {
-    let squares = Surface::Chequer {
-        origin: DVec2::splat(-SQUARE / 2.0),
-        side: SQUARE,
-        materials: [materials.material(&scheme.dark)?, materials.material(&scheme.light)?],
-    };
-    Ok(vec![
+fn stepped(squares: [Material; 2], frame: Material) -> Vec<Object> {
+    let squares =
+        Surface::Chequer { origin: DVec2::splat(-SQUARE / 2.0), side: SQUARE, materials: squares };
+    vec![
         Object::standing(block(HALF - RIM, -2.0 * STEP, 0.0), squares),
-        Object::standing(block(HALF + FRAME, -DEPTH, -STEP), materials.surface(&scheme.frame)?),
-    ])
+        Object::standing(block(HALF + FRAME, -DEPTH, -STEP), Surface::Uniform(frame)),
+    ]
+}
+
+/// A frame with coordinates, in the colour of those squares that stand off it more.
+fn lettered(frame: Material, squares: &[Material], near: Side) -> Material {
+    let ground = frame.texture.mean();
+    let inks = squares.iter().map(|square| square.texture.mean());
+    let ink = inks.max_by(|a, b| a.distance(ground).total_cmp(&b.distance(ground)));
+    let ink = ink.unwrap_or(Rgb::ONE);
+    Material { texture: Texture::Lettered { ground: Box::new(frame.texture), ink, near }, ..frame }
 }
 
 /// What the board fills, without the table.
@@ -82,17 +101,9 @@ fn block(half_width: f64, bottom: f64, top: f64) -> Cuboid {
 
 /// Squares and a frame of mouldings in one body: a bar with the moulding's section, crossed with
 /// itself.
-fn moulded(scheme: &Scheme, materials: &Materials) -> Result<Object, MaterialError> {
-    let inlay = scheme.inlay.as_ref().unwrap_or(&scheme.frame);
-    let joinery = Joinery {
-        materials: [
-            materials.material(&scheme.dark)?,
-            materials.material(&scheme.light)?,
-            materials.material(&scheme.frame)?,
-            materials.material(inlay)?,
-        ],
-        has_inlay: scheme.inlay.is_some(),
-    };
+fn moulded([dark, light]: [Material; 2], frame: Material, inlay: Option<Material>) -> Object {
+    let has_inlay = inlay.is_some();
+    let inlay = inlay.unwrap_or(frame.clone());
     let body = match section() {
         Ok(bar) => {
             let bar = Csg::leaf(bar);
@@ -101,7 +112,8 @@ fn moulded(scheme: &Scheme, materials: &Materials) -> Result<Object, MaterialErr
         // The section is a constant that makes a bar, as a test sees to.
         Err(_) => Csg::leaf(block(HALF + FRAME, -DEPTH, 0.0)),
     };
-    Ok(Object::standing(body, Surface::Board(Arc::new(joinery))))
+    let joinery = Joinery { materials: [dark, light, frame, inlay], has_inlay };
+    Object::standing(body, Surface::Board(Arc::new(joinery)))
 }
 
 /// The moulding from the bottom of the board to its top: distance from the outer edge, height, and
@@ -139,26 +151,30 @@ impl Joinery {
     /// The material at a place of the world, and the place as the piece of wood has it.
     pub fn material(&self, place: Place) -> (&Material, Place) {
         let [dark, light, frame, inlay] = &self.materials;
+        let cut = |part: u64, middle: DVec3, turned: bool| {
+            let DVec3 { x, y, z } = place.point - middle;
+            let point = if turned { DVec3::new(-z, y, x) } else { DVec3::new(x, y, z) };
+            Place { point, seed: hash(place.seed, part), ..place }
+        };
         let from_middle = place.point - MIDDLE;
         let (dx, dz) = (from_middle.x.abs(), from_middle.z.abs());
         let beyond = dx.max(dz) - HALF;
-        let cut = |part: u64, turned: bool| {
-            let turn = if turned { rotation_y(90.0) } else { DAffine3::IDENTITY };
-            Place { point: turn.transform_vector3(from_middle), seed: hash(place.seed, part) }
-        };
         if beyond >= 0.0 {
             // The grain of mouldings goes along them; they meet in mitres.
             let along_x = dz > dx;
             let side = if along_x { from_middle.z } else { from_middle.x };
             let part = 64 + 2 * u64::from(along_x) + u64::from(side > 0.0);
+            let axis = if along_x { DVec3::Z } else { DVec3::X };
+            let middle = MIDDLE + axis * (HALF + FRAME / 2.0) * side.signum();
             let is_inlay = self.has_inlay && INLAY[0] <= beyond && beyond < INLAY[1];
-            return (if is_inlay { inlay } else { frame }, cut(part, along_x));
+            return (if is_inlay { inlay } else { frame }, cut(part, middle, along_x));
         }
-        let cell = ((place.point / SQUARE) + 0.5).floor();
+        let cell = (place.point / SQUARE + 0.5).floor();
         let (file, rank) = (cell.x as u64, cell.z as u64);
-        let square = 8 * rank + file;
-        let material = if (file + rank) % 2 == 0 { dark } else { light };
-        (material, cut(square, (file + rank) % 2 == 0))
+        let is_dark = (file + rank) % 2 == 0;
+        let middle = DVec3::new(cell.x, 0.0, cell.z) * SQUARE;
+        // The dark squares' grain goes across the light squares'.
+        (if is_dark { dark } else { light }, cut(8 * rank + file, middle, is_dark))
     }
 }
 

@@ -167,7 +167,7 @@ mod tests {
             side: 4.0,
             materials: [dark.clone(), light.clone()],
         };
-        let at = |point| Place { point, seed: 0 };
+        let at = |point| Place { on_body: point, point, seed: 0 };
         let color = |material: &Material| material.texture.color(at(DVec3::ZERO), 0.0);
         for (file, rank, expected) in [(0, 0, &dark), (7, 0, &light), (0, 7, &light), (7, 7, &dark)]
         {

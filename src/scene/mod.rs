@@ -7,8 +7,10 @@
 mod board;
 mod camera;
 mod clock;
+mod coordinates;
 mod facing;
 mod framing;
+mod glyphs;
 mod mapping;
 mod material;
 mod models;
@@ -20,6 +22,7 @@ mod timber;
 mod view;
 
 pub use camera::{Camera, Projection};
+pub use coordinates::Side;
 pub use mapping::Mapping;
 pub use material::{Material, MaterialError, Rgb, Surface};
 pub use room::{Daylight, Room, Softbox};
@@ -54,7 +57,7 @@ impl Object {
     /// between two squares or two pictures, where rounding would choose.
     pub fn material(&self, point: DVec3, normal: DVec3) -> (&Material, Place) {
         let point = self.body.own_point(point - normal * HAIR);
-        self.surface.material(Place { point, seed: self.seed })
+        self.surface.material(Place { on_body: point, point, seed: self.seed })
     }
 }
 

@@ -10,7 +10,7 @@ use super::facing::Facing;
 use super::material::{MaterialError, Materials};
 use super::models::model;
 use super::noise::hash;
-use super::{Camera, Object, Reach, Rgb, Room, Scene, Surface, view};
+use super::{Camera, Object, Reach, Rgb, Room, Scene, Side, Surface, view};
 use crate::assets::Assets;
 use crate::config::{Config, Light, Shading};
 use crate::geometry::transform::translation;
@@ -54,15 +54,15 @@ impl Stage {
     pub fn new(config: &Config, assets: &Assets, reach: Reach) -> Result<Stage, MaterialError> {
         let materials = Materials { config, bitmaps: &assets.bitmaps };
         let scheme = config.scheme();
-        let mut fixed = board(&scheme, &materials)?;
+        let set = assets.set.clone();
+        let camera = view::camera(config, &set, reach);
+        let mut fixed = board(&scheme, &materials, Side::near(&camera))?;
         if config.clock.show {
             fixed.extend(clock(&config.clock, &materials)?);
         }
         for settings in &config.models {
             fixed.push(model(settings, &materials)?);
         }
-        let set = assets.set.clone();
-        let camera = view::camera(config, &set, reach);
         Ok(Stage {
             pieces: [set.pawn, set.knight, set.bishop, set.rook, set.queen, set.king].map(Arc::new),
             surfaces: [materials.surface(&scheme.white)?, materials.surface(&scheme.black)?],

@@ -3,10 +3,10 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use glam::{DVec3, Vec3Swizzles};
+use glam::{DVec2, DVec3, Vec3Swizzles};
 
 use super::noise::fractal;
-use super::{Mapping, Rgb, timber};
+use super::{Mapping, Rgb, Side, coordinates, timber};
 use crate::assets::{Beyond, Bitmap};
 use crate::config::{self, Axis, Filter};
 
@@ -38,6 +38,9 @@ pub enum Texture {
         colors: [Rgb; 2],
         noise: Noise,
     },
+    /// Coordinates on another texture, on the board's frame: their colour, and the side that they
+    /// are to be read from.
+    Lettered { ground: Box<Texture>, ink: Rgb, near: Side },
     /// A picture; its colours are as they are written, or as linear light.
     Bitmap { bitmap: Arc<Bitmap>, mapping: Mapping, filter: Filter, linear: bool },
 }
@@ -46,8 +49,10 @@ pub enum Texture {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place {
     /// In the body's own space.
+    pub on_body: DVec3,
+    /// In the piece of wood or stone that this part of the body is cut from.
     pub point: DVec3,
-    /// Which tree or block the body is cut from.
+    /// Which tree or block that is.
     pub seed: u64,
 }
 
@@ -62,7 +67,7 @@ pub struct Noise {
 impl Texture {
     /// The colour at `place`, where a width of `seen` world units is seen at once.
     pub fn color(&self, place: Place, seen: f64) -> Rgb {
-        let Place { point, seed } = place;
+        let Place { point, seed, .. } = place;
         match self {
             Texture::Plain(color) => *color,
             Texture::Wood { colors, noise, grain } => {
@@ -80,6 +85,10 @@ impl Texture {
                     Axis::Z => point,
                 };
                 colors[0].lerp(colors[1], timber::shade(along / ring, seed, seen / ring))
+            }
+            Texture::Lettered { ground, ink, near } => {
+                let cover = coordinates::ink(place.on_body.x, place.on_body.z, *near, seen);
+                ground.color(place, seen).lerp(*ink, cover)
             }
             Texture::Marble { colors, noise } => {
                 let block = DVec3::new(7.1, 3.3, 5.7) * (seed % 1024) as f64;
@@ -101,15 +110,25 @@ impl Texture {
     /// Wood and marble as one colour, the mean over a large body; others as they are.
     pub fn plain(self) -> Texture {
         match self {
-            // A ring has all its shades in equal shares.
-            Texture::Wood { colors, .. } => Texture::Plain(colors[0].lerp(colors[1], 0.5)),
-            Texture::Timber { colors, .. } => {
-                Texture::Plain(colors[0].lerp(colors[1], timber::MEAN))
-            }
-            Texture::Marble { colors, .. } => {
-                Texture::Plain(colors[0].lerp(colors[1], MARBLE_MEAN))
+            Texture::Wood { .. } | Texture::Timber { .. } | Texture::Marble { .. } => {
+                Texture::Plain(self.mean())
             }
             other => other,
+        }
+    }
+
+    /// The mean colour over a large body; of a picture that of its middle.
+    pub fn mean(&self) -> Rgb {
+        match self {
+            Texture::Plain(color) => *color,
+            // A ring has all its shades in equal shares.
+            Texture::Wood { colors, .. } => colors[0].lerp(colors[1], 0.5),
+            Texture::Timber { colors, .. } => colors[0].lerp(colors[1], timber::MEAN),
+            Texture::Marble { colors, .. } => colors[0].lerp(colors[1], MARBLE_MEAN),
+            Texture::Lettered { ground, .. } => ground.mean(),
+            Texture::Bitmap { bitmap, .. } => {
+                bitmap.color(DVec2::splat(0.5), Filter::Nearest, Beyond::Stays, 0.0)
+            }
         }
     }
 }
@@ -146,7 +165,7 @@ mod tests {
     use super::*;
 
     fn at(point: DVec3) -> Place {
-        Place { point, seed: 0 }
+        Place { on_body: point, point, seed: 0 }
     }
 
     const BLACK_AND_WHITE: [Rgb; 2] = [DVec3::ZERO, DVec3::ONE];

@@ -60,8 +60,8 @@ pub fn camera(config: &Config, set: &PieceSet, reach: Reach) -> Camera {
 /// Where the views that show the whole board stand.
 fn stand(view: View) -> Option<Stand> {
     let (elevation, azimuth, field) = match view {
-        View::White => (45.0, 25.0, Some(26.0)),
-        View::Black => (45.0, 205.0, Some(26.0)),
+        View::White => (45.0, -25.0, Some(26.0)),
+        View::Black => (45.0, 155.0, Some(26.0)),
         View::Top => (90.0, 0.0, None),
         View::Side => (35.0, 90.0, Some(26.0)),
         View::Player => (32.0, 0.0, Some(36.0)),

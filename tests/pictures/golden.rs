@@ -36,6 +36,16 @@ Black=smoked-glass
 Table=boxwood
 ";
 
+/// Seen from White's side, with names of files and ranks, knights in profile.
+const COORDINATES: &str = "\
+[Camera]
+View=white
+[Board]
+Coordinates=yes
+[Pieces]
+Knights=left
+";
+
 /// Name, settings, antialiasing.
 fn cases() -> Vec<(&'static str, String, &'static str)> {
     let filtered = |filter: &str| format!("{MAPPED}[Render]\nFilter={filter}\n");
@@ -45,6 +55,7 @@ fn cases() -> Vec<(&'static str, String, &'static str)> {
         ("wood", format!("{WOOD}{CLOSE}"), "grid"),
         ("marble", format!("{MARBLE}{CLOSE}"), "grid"),
         ("glass", format!("{GLASS}{CLOSE}"), "none"),
+        ("coordinates", COORDINATES.to_owned(), "grid"),
         ("clock", format!("{CLOCK}[Render]\nFilter=mip\n"), "grid"),
         ("bitmaps-nearest", filtered("nearest"), "none"),
         ("bitmaps-bilinear", filtered("bilinear"), "none"),

@@ -1,0 +1,179 @@
+//! Coordinates on the board's frame: along the side near the viewer and the one on his left, upright
+//! for him.
+
+use glam::{DVec2, Vec3Swizzles};
+
+use super::Camera;
+use super::board::{FRAME, HALF, MIDDLE, SQUARE};
+use super::glyphs::{self, REACH};
+
+/// The height of a digit in world units, from middle to middle of its strokes.
+const SIZE: f64 = 0.46 * FRAME;
+
+/// Which height of letters and digits stands in the middle of the frame, in their own unit: the
+/// bowls of letters weigh more than their stems and tails.
+const LETTERS_MIDDLE: f64 = 0.38;
+const DIGITS_MIDDLE: f64 = 0.5;
+
+/// A side of the board.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// Beyond rank 1.
+    White,
+    /// Beyond the h-file.
+    Kingside,
+    /// Beyond rank 8.
+    Black,
+    /// Beyond the a-file.
+    Queenside,
+}
+
+impl Side {
+    /// The side that is at the bottom of what `camera` sees.
+    pub fn near(camera: &Camera) -> Side {
+        let right = camera.axes()[0];
+        match (right.x.abs() >= right.z.abs(), right.x + right.z > 0.0) {
+            (true, true) => Side::White,
+            (false, true) => Side::Kingside,
+            (true, false) => Side::Black,
+            (false, false) => Side::Queenside,
+        }
+    }
+
+    /// The side on the left of a viewer who has this one before him.
+    fn left(self) -> Side {
+        match self {
+            Side::White => Side::Queenside,
+            Side::Kingside => Side::White,
+            Side::Black => Side::Kingside,
+            Side::Queenside => Side::Black,
+        }
+    }
+
+    /// A way on the board, x towards the h-file and y towards rank 8, as a viewer has it who has this
+    /// side before him: x to his right, y away from him.
+    fn seen(self, way: DVec2) -> DVec2 {
+        match self {
+            Side::White => way,
+            Side::Kingside => DVec2::new(way.y, -way.x),
+            Side::Black => -way,
+            Side::Queenside => DVec2::new(-way.y, way.x),
+        }
+    }
+}
+
+/// How much ink there is at the place (`x`, `z`) of the frame's top, 0 to 1, for a viewer who has the
+/// side `near` before him and sees a width of `seen` world units at once.
+pub fn ink(x: f64, z: f64, near: Side, seen: f64) -> f64 {
+    let place = DVec2::new(x, z) - MIDDLE.xz();
+    // On which side's part of the frame, how far along, and whether files are named there.
+    let (side, along, is_file) = match (place.x.abs() > HALF, place.y.abs() > HALF) {
+        (false, true) if place.y < 0.0 => (Side::White, place.x, true),
+        (false, true) => (Side::Black, place.x, true),
+        (true, false) if place.x < 0.0 => (Side::Queenside, place.y, false),
+        (true, false) => (Side::Kingside, place.y, false),
+        _ => return 0.0,
+    };
+    if side != near && side != near.left() {
+        return 0.0;
+    }
+    let number = ((along + HALF) / SQUARE).floor().clamp(0.0, 7.0);
+    let beside = (number + 0.5) * SQUARE - HALF;
+    let within = HALF + FRAME / 2.0;
+    let label = match side {
+        Side::White => DVec2::new(beside, -within),
+        Side::Black => DVec2::new(beside, within),
+        Side::Kingside => DVec2::new(within, beside),
+        Side::Queenside => DVec2::new(-within, beside),
+    };
+    let middle = if is_file { LETTERS_MIDDLE } else { DIGITS_MIDDLE };
+    let point = near.seen(place - label) / SIZE + DVec2::Y * middle;
+    let [aside, below, above] = REACH;
+    let blur = seen / SIZE / 2.0;
+    if point.x.abs() > aside + blur || point.y < -below - blur || point.y > above + blur {
+        return 0.0;
+    }
+    let glyph = if is_file { glyphs::letter } else { glyphs::digit };
+    let outside = glyph(number as usize, point) * SIZE;
+    // As if an edge ran straight through what is seen.
+    (0.5 - outside / seen.max(f64::MIN_POSITIVE)).clamp(0.0, 1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::Pose;
+    use glam::DVec3;
+
+    /// Whether there is any ink round a point of the frame, given from the board's middle.
+    fn is_labelled(near: Side, x: f64, z: f64) -> bool {
+        let inked = |dx: i32, dz: i32| {
+            let at = |from: f64, by: i32| from + 14.0 + 0.05 * f64::from(by);
+            ink(at(x, dx), at(z, dz), near, 0.01) > 0.5
+        };
+        (-16..=16).any(|dx| (-16..=16).any(|dz| inked(dx, dz)))
+    }
+
+    #[test]
+    fn the_near_side_and_the_left_one_are_labelled_beside_every_square() {
+        let sides = [
+            (Side::White, [true, false, false, true]),
+            (Side::Kingside, [true, true, false, false]),
+            (Side::Black, [false, true, true, false]),
+            (Side::Queenside, [false, false, true, true]),
+        ];
+        for (near, labelled) in sides {
+            for square in 0..8 {
+                let along = f64::from(4 * square) - 14.0;
+                let places = [(along, -17.1), (17.1, along), (along, 17.1), (-17.1, along)];
+                let found = places.map(|(x, z)| is_labelled(near, x, z));
+                assert_eq!(found, labelled, "{near:?}, {square}");
+            }
+            assert!(!is_labelled(near, -17.1, -17.1), "{near:?}: the corner");
+            assert!(!is_labelled(near, 0.0, 0.0), "{near:?}: the squares");
+        }
+    }
+
+    /// The stem of b, and the hook of f, tell the way up and the way it is read.
+    #[test]
+    fn labels_are_upright_for_their_viewer() {
+        let stem = DVec2::new(-0.31, 0.9 - LETTERS_MIDDLE) * SIZE;
+        for (near, b) in [
+            (Side::White, DVec2::new(-10.0, -17.1) + stem),
+            (Side::Kingside, DVec2::new(-10.0, -17.1) + DVec2::new(-stem.y, stem.x)),
+            (Side::Black, DVec2::new(-10.0, 17.1) - stem),
+            (Side::Queenside, DVec2::new(-10.0, 17.1) + DVec2::new(stem.y, -stem.x)),
+        ] {
+            assert!(ink(b.x + 14.0, b.y + 14.0, near, 0.01) == 1.0, "{near:?}");
+        }
+    }
+
+    #[test]
+    fn ink_fades_over_what_is_seen_at_once() {
+        // The stem of h: its middle, its edge, and beside it.
+        let across = |x: f64, seen| {
+            let h = DVec2::new(28.0, 14.0 - 17.1) + DVec2::new(-0.28, 0.9 - LETTERS_MIDDLE) * SIZE;
+            ink(h.x + x, h.y, Side::White, seen)
+        };
+        let edge = glyphs::PEN * SIZE;
+        assert_eq!([0.0, -edge - 0.1].map(|x| across(x, 0.02)), [1.0, 0.0]);
+        assert!((across(-edge, 0.02) - 0.5).abs() < 1e-9);
+        assert!(across(-edge - 0.1, 0.4) > 0.0 && across(0.0, 0.4) < 1.0);
+    }
+
+    #[test]
+    fn the_near_side_is_the_one_below_in_the_picture() {
+        for (x, z, near) in [
+            (14.0, -40.0, Side::White),
+            (34.0, -30.0, Side::White),
+            (60.0, 10.0, Side::Kingside),
+            (10.0, 60.0, Side::Black),
+            (-60.0, 20.0, Side::Queenside),
+            (14.0, 14.0, Side::White),
+        ] {
+            let camera =
+                Camera::free(&Pose { position: DVec3::new(x, 30.0, z), ..Pose::default() });
+            assert_eq!(Side::near(&camera), near, "{x}, {z}");
+        }
+    }
+}
