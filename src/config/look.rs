@@ -89,9 +89,9 @@ fn studio(thesis: Config) -> Config {
         camera: Camera { view: View::White, ..thesis.camera },
         knights: Knights::Left,
         lights: vec![
-            softbox([-26.0, 60.0, -10.0], [0.95, 0.912, 0.855], [18.0, 14.0]),
-            softbox([60.0, 36.0, -22.0], [0.158, 0.163, 0.17], [16.0, 16.0]),
-            softbox([29.0, 55.0, 54.0], [0.56, 0.55, 0.53], [30.0, 6.0]),
+            softbox([-26.0, 60.0, -10.0], [1.05, 1.0, 0.93], [18.0, 14.0]),
+            softbox([60.0, 36.0, -22.0], [0.165, 0.17, 0.178], [16.0, 16.0]),
+            softbox([26.0, 68.0, 44.0], [0.52, 0.51, 0.49], [30.0, 6.0]),
         ],
         render: Render {
             shading: Shading::Studio,

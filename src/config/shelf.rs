@@ -19,19 +19,23 @@ const DULL: Finish = Finish { diffuse: 0.7, specular: 0.15, shininess: 30.0, ..P
 
 /// The materials that `look` begins with, by name.
 pub fn materials(look: Look) -> BTreeMap<String, Material> {
-    let woods = match look {
+    let kinds = match look {
         Look::Thesis => [
             wood([[0.36, 0.2, 0.1], [0.27, 0.14, 0.07]], 14.0, Axis::Z),
             wood([[0.91, 0.8, 0.6], [0.84, 0.7, 0.47]], 9.0, Axis::Y),
             wood([[0.38, 0.23, 0.14], [0.28, 0.16, 0.09]], 9.0, Axis::Y),
+            marble([[0.9, 0.89, 0.86], [0.5, 0.51, 0.54]]),
+            marble([[0.1, 0.11, 0.11], [0.45, 0.46, 0.44]]),
         ],
         Look::Studio => [
             satin(timber([0x4a2f1f, 0x342013], 0.30, Axis::Z)),
             timber([0xe8cfa0, 0xd9b97c], 0.14, Axis::Y),
-            satin(timber([0x85593a, 0x62402a], 0.26, Axis::Z)),
+            satin(timber([0x85593a, 0x603d26], 0.26, Axis::Z)),
+            marble([[0.93, 0.92, 0.89], [0.72, 0.72, 0.73]]),
+            marble([[0.14, 0.15, 0.155], [0.3, 0.31, 0.31]]),
         ],
     };
-    let [frame, boxwood, walnut] = woods;
+    let [frame, boxwood, walnut, white_marble, black_marble] = kinds;
     let materials = [
         ("white", plain(rgb([0.91, 0.81, 0.63]))),
         ("black", plain(rgb([0.24, 0.18, 0.15]))),
@@ -44,8 +48,8 @@ pub fn materials(look: Look) -> BTreeMap<String, Material> {
         ("oak", satin(timber([0xa98257, 0x8a6238], 0.45, Axis::Z))),
         ("ebony", timber([0x2b201b, 0x1c1410], 0.14, Axis::Y)),
         ("rosewood", timber([0x6b3020, 0x401a10], 0.16, Axis::Y)),
-        ("white-marble", marble([[0.9, 0.89, 0.86], [0.5, 0.51, 0.54]])),
-        ("black-marble", marble([[0.1, 0.11, 0.11], [0.45, 0.46, 0.44]])),
+        ("white-marble", white_marble),
+        ("black-marble", black_marble),
         ("glass", glass([0.8, 0.95, 0.9], 0.85)),
         ("smoked-glass", glass([0.3, 0.22, 0.16], 0.45)),
         ("brass", Material { coat: METAL, ..plain(hex(0xd9b265)) }),
@@ -57,8 +61,14 @@ pub fn materials(look: Look) -> BTreeMap<String, Material> {
         ("chalk", matt(0xf7f5f0)),
         ("pale-grey", matt(0xe9e9e6)),
         ("mid-grey", matt(0x9c9fa3)),
-        ("slate", matt(0x6b6d72)),
-        ("graphite", matt(0x33353a)),
+        ("slate", matt(0x67676a)),
+        ("graphite", matt(0x3a3b40)),
+        ("frosted-glass", satin(plain(hex(0xc4c8cb)))),
+        ("slate-glass", satin(plain(hex(0x6f757b)))),
+        ("jet", plain(hex(0x2a2a2c))),
+        ("honed-white-marble", honed([[0.9, 0.89, 0.86], [0.66, 0.66, 0.68]])),
+        ("honed-black-marble", honed([[0.25, 0.26, 0.26], [0.42, 0.43, 0.42]])),
+        ("serpentine", honed([[0.16, 0.2, 0.18], [0.26, 0.31, 0.28]])),
     ];
     materials.map(|(name, material)| (name.to_owned(), material)).into()
 }
@@ -114,6 +124,11 @@ fn marble(colors: [[f64; 3]; 2]) -> Material {
         octaves: 5,
         ..plain(rgb(colors[0]))
     }
+}
+
+/// Marble for boards: dull, with fainter and wider veins.
+fn honed(colors: [[f64; 3]; 2]) -> Material {
+    Material { coat: SATIN, size: 4.5, octaves: 4, ..marble(colors) }
 }
 
 fn glass(color: [f64; 3], transparency: f64) -> Material {

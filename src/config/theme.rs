@@ -143,30 +143,26 @@ pub fn default_of(look: Look) -> &'static str {
 /// The themes that need no section, by name: light and dark squares, frame, inlay, table, white
 /// and black pieces, background.
 pub fn themes() -> BTreeMap<String, Parts> {
-    let slate = DVec3::splat(0.2);
+    let grey = DVec3::splat(0.2);
+    let marble = [
+        "honed-white-marble",
+        "honed-black-marble",
+        "serpentine",
+        "brass",
+        "graphite",
+        "white-marble",
+        "black-marble",
+    ];
+    let glass =
+        ["frosted-glass", "slate-glass", "graphite", "brass", "slate", "glass", "smoked-glass"];
+    let thesis = ["light", "dark", "frame", "none", "none", "white", "black"];
     [
-        theme("wood", ["maple", "walnut", "frame", "maple", "slate", "boxwood", "ebony"], slate),
-        theme("tournament", ["buff", "green", "buff", "ink", "graphite", "ivory", "ink"], slate),
-        theme(
-            "marble",
-            [
-                "white-marble",
-                "black-marble",
-                "black-marble",
-                "brass",
-                "graphite",
-                "white-marble",
-                "black-marble",
-            ],
-            slate,
-        ),
-        theme(
-            "glass",
-            ["paper", "mid-grey", "graphite", "brass", "slate", "glass", "smoked-glass"],
-            slate,
-        ),
+        theme("wood", ["maple", "walnut", "frame", "maple", "slate", "boxwood", "ebony"], grey),
+        theme("tournament", ["buff", "green", "buff", "green", "slate", "ivory", "jet"], grey),
+        theme("marble", marble, grey),
+        theme("glass", glass, grey),
         theme("print", ["paper", "mid-grey", "paper", "ink", "none", "chalk", "ink"], DVec3::ONE),
-        theme("thesis", ["light", "dark", "frame", "none", "none", "white", "black"], DVec3::ZERO),
+        theme("thesis", thesis, DVec3::ZERO),
     ]
     .into()
 }

@@ -51,15 +51,14 @@ pub fn board(
 ) -> Result<Vec<Object>, MaterialError> {
     let squares = [materials.material(&scheme.dark)?, materials.material(&scheme.light)?];
     let mut frame = materials.material(&scheme.frame)?;
+    let inlay = scheme.inlay.as_ref().map(|name| materials.material(name)).transpose()?;
     if scheme.coordinates {
-        frame = lettered(frame, &squares, near);
+        let inks = inlay.as_ref().map_or(&squares[..], std::slice::from_ref);
+        frame = lettered(frame, inks, near);
     }
     let mut objects = match scheme.edge {
         Edge::Step => stepped(squares, frame),
-        Edge::Moulded => {
-            let inlay = scheme.inlay.as_ref().map(|name| materials.material(name)).transpose()?;
-            vec![moulded(squares, frame, inlay)]
-        }
+        Edge::Moulded => vec![moulded(squares, frame, inlay)],
     };
     if let Some(table) = &scheme.table {
         let plane = Plane::new(DVec3::Y * -DEPTH, DVec3::Y);
@@ -78,10 +77,10 @@ fn stepped(squares: [Material; 2], frame: Material) -> Vec<Object> {
     ]
 }
 
-/// A frame with coordinates, in the colour of those squares that stand off it more.
-fn lettered(frame: Material, squares: &[Material], near: Side) -> Material {
+/// A frame with coordinates, in the colour of what stands off it most.
+fn lettered(frame: Material, inks: &[Material], near: Side) -> Material {
     let ground = frame.texture.mean();
-    let inks = squares.iter().map(|square| square.texture.mean());
+    let inks = inks.iter().map(|material| material.texture.mean());
     let ink = inks.max_by(|a, b| a.distance(ground).total_cmp(&b.distance(ground)));
     let ink = ink.unwrap_or(Rgb::ONE);
     Material { texture: Texture::Lettered { ground: Box::new(frame.texture), ink, near }, ..frame }
