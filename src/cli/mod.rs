@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::bail;
 use clap::{Args, ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
+use lightsquare::config::{Look, Shading};
 use lightsquare::game::{Moment, Selection};
 use lightsquare::job::{BenchJob, DiagramJob, ExportJob, InspectJob, RenderJob, Subject};
 use lightsquare::notation::Placement;
@@ -299,7 +300,7 @@ impl RenderArgs {
             to: self.to,
             film: self.animate.then_some(film),
             orbit: self.orbit,
-            picture: self.picture.settings()?,
+            picture: self.picture.settings(Look::default())?,
         })
     }
 }
@@ -311,7 +312,7 @@ impl DiagramArgs {
             let name = self.output.display();
             bail!(UsageError(format!("--output: expected a .png or .bmp file, found `{name}`")));
         }
-        let picture = self.picture.settings()?;
+        let picture = self.picture.settings(Look::default())?;
         Ok(DiagramJob { subject: self.subject.into_subject()?, output: self.output, picture })
     }
 }
@@ -324,7 +325,12 @@ impl ExportArgs {
             let name = self.output.display();
             bail!(UsageError(format!("--output: expected a .pov file, found `{name}`")));
         }
-        let picture = self.picture.settings()?;
+        let picture = self.picture.settings(Look::Thesis)?;
+        if picture.config.render.shading == Shading::Studio {
+            let message = "POV-Ray's scenes are written as Phong's model has them, expected --look \
+                           thesis, or Shading=phong in the settings";
+            bail!(UsageError(message.to_owned()));
+        }
         Ok(ExportJob { subject: self.subject.into_subject()?, output: self.output, picture })
     }
 }
@@ -352,12 +358,12 @@ impl SubjectArgs {
 }
 
 impl Command {
-    /// The picture options of a command that has them.
-    pub fn picture(&self) -> Option<&PictureArgs> {
+    /// The picture options of a command that has them, and its look where they name none.
+    pub fn picture(&self) -> Option<(&PictureArgs, Look)> {
         match self {
             Command::Render(RenderArgs { picture, .. })
-            | Command::Diagram(DiagramArgs { picture, .. })
-            | Command::Export(ExportArgs { picture, .. }) => Some(picture),
+            | Command::Diagram(DiagramArgs { picture, .. }) => Some((picture, Look::default())),
+            Command::Export(ExportArgs { picture, .. }) => Some((picture, Look::Thesis)),
             Command::Inspect(_) | Command::Bench(_) => None,
         }
     }

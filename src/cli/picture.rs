@@ -40,8 +40,9 @@ pub struct PictureArgs {
     #[arg(long, value_name = "NAME|DIR", default_value = "staunton", value_parser = SetName::parse)]
     set: SetName,
     /// What pictures look like before any setting: camera, lights, materials
-    #[arg(long, value_name = "NAME", default_value = "studio")]
-    look: LookArg,
+    /// [default: studio; thesis for export]
+    #[arg(long, value_name = "NAME", ignore_case = true)]
+    look: Option<LookArg>,
     /// What pieces, board and table are made of: wood, tournament, marble, glass, print, thesis, or
     /// a [Theme ...] of the settings [default: wood; thesis in the thesis's look]
     #[arg(long, value_name = "NAME")]
@@ -94,10 +95,12 @@ enum LookArg {
 
 impl PictureArgs {
     /// The settings: flags over the file, the file over the look.
-    pub fn settings(&self) -> anyhow::Result<PictureSettings> {
+    /// The look is `look` where none is named.
+    pub fn settings(&self, look: Look) -> anyhow::Result<PictureSettings> {
         let look = match self.look {
-            LookArg::Studio => Look::Studio,
-            LookArg::Thesis => Look::Thesis,
+            Some(LookArg::Studio) => Look::Studio,
+            Some(LookArg::Thesis) => Look::Thesis,
+            None => look,
         };
         let config_file = config_file(self.config.as_deref());
         let mut config = read_config(Config::new(look), config_file.as_deref())?;

@@ -13,6 +13,11 @@ use super::values::{Choice, Number, PLACE};
 pub struct Camera {
     pub view: View,
     pub orientation: Orientation,
+    /// Width of the lens in world units, 0 for a pinhole: what is not as far as `focus` is blurred.
+    /// (In the studio alone.)
+    pub aperture: f64,
+    /// World units: a point that is sharp.
+    pub focus: DVec3,
     /// What counts where the view is [`View::Free`].
     #[serde(flatten)]
     pub pose: Pose,
@@ -89,14 +94,19 @@ impl Default for Pose {
     }
 }
 
-pub const KEYS: [Key<Camera>; 6] = [
+pub const KEYS: [Key<Camera>; 8] = [
     key!("View", Camera, view: Choice(&VIEWS)),
     key!("Orientation", Camera, orientation: Choice(&ORIENTATIONS)),
+    key!("Aperture", Camera, aperture: Number(0.0, 20.0)),
+    key!("Focus", Camera, focus: PLACE).only("a camera with an Aperture", |c| c.aperture > 0.0),
     key!("Position", Camera, pose.position: PLACE).only(FREE, is_free),
     key!("LookAt", Camera, pose.look_at: PLACE).only(FREE, is_free),
     key!("FOV", Camera, pose.fov: Number(1.0, 340.0)).only(FREE, is_free),
     key!("ZRot", Camera, pose.z_rot: Number(-360.0, 360.0)).only(FREE, is_free),
 ];
+
+/// The keys of a pose.
+const POSE: [&str; 4] = ["Position", "LookAt", "FOV", "ZRot"];
 
 const FREE: &str = "a camera with View=free";
 
@@ -109,7 +119,7 @@ fn is_free(camera: &Camera) -> bool {
 pub fn read(section: &Section, camera: &mut Camera, faults: &mut Vec<Fault>) {
     let gives =
         |name: &str| section.entries.iter().any(|entry| entry.key.eq_ignore_ascii_case(name));
-    if !gives("View") && KEYS.iter().any(|key| key.only.is_some() && gives(key.name)) {
+    if !gives("View") && POSE.iter().any(|name| gives(name)) {
         camera.view = View::Free;
     }
     read_section(section, &KEYS, camera, faults);

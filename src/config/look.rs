@@ -50,6 +50,8 @@ fn thesis() -> Config {
         camera: Camera {
             view: View::Thesis,
             orientation: Orientation::White,
+            aperture: 0.0,
+            focus: DVec3::new(14.0, 0.0, 14.0),
             pose: Pose::default(),
         },
         knights: Knights::Kingside,

@@ -15,7 +15,10 @@ use glam::{DAffine3, DMat3, DVec2, DVec3};
 use crate::assets::Bitmap;
 use crate::config::{self, Axis, Filter, Finish};
 use crate::geometry::{Csg, Lathe, Operation, Plane, Prism, Root, Segment, Shape, Solid};
-use crate::scene::{Mapping, Material, Noise, Object, Projection, Scene, Surface, Texture};
+use crate::scene::{
+    HALF, Joinery, MIDDLE, Mapping, Material, Noise, Object, Projection, SQUARE, Scene, Surface,
+    Texture,
+};
 
 /// A scene's text, and the pictures that it names.
 pub struct PovScene {
@@ -237,24 +240,42 @@ impl Writer<'_> {
     fn surface(&mut self, surface: &Surface) {
         match surface {
             Surface::Uniform(material) => self.material(material, 1, DAffine3::IDENTITY),
-            Surface::Board(joinery) => {
-                self.material(&joinery.materials[2], 1, DAffine3::IDENTITY);
-            }
-            Surface::Chequer { origin, side, materials } => {
-                // What scales the chequer would scale the materials in it, too.
-                let place = DAffine3 {
-                    matrix3: DMat3::from_diagonal(DVec3::new(*side, TALL, *side)),
-                    translation: DVec3::new(origin.x, -TALL / 2.0, origin.y),
-                };
-                line!(self, "  texture {{");
-                line!(self, "    checker");
-                for material in materials {
-                    self.material(material, 2, place.inverse());
-                }
-                self.transform(2, place);
-                line!(self, "  }}");
+            Surface::Board(joinery) => self.joinery(joinery),
+            Surface::Chequer { origin, side, materials: [even, odd] } => {
+                self.chequer(*origin, *side, [even, odd], 1);
             }
         }
+    }
+
+    /// Frame, inlay and squares, one within the other.
+    fn joinery(&mut self, joinery: &Joinery) {
+        let [dark, light, frame, inlay] = &joinery.materials;
+        let within = |half: f64| {
+            let half = DVec3::new(half, TALL, half);
+            format!("box {{ {}, {} }}", vector(MIDDLE - half), vector(MIDDLE + half))
+        };
+        line!(self, "  texture {{ object {{ {}", within(HALF + joinery.inlay_width()));
+        self.material(frame, 2, DAffine3::IDENTITY);
+        line!(self, "  texture {{ object {{ {}", within(HALF));
+        self.material(inlay, 2, DAffine3::IDENTITY);
+        self.chequer(DVec2::splat(-SQUARE / 2.0), SQUARE, [dark, light], 2);
+        line!(self, "  }} }} }} }}");
+    }
+
+    fn chequer(&mut self, origin: DVec2, side: f64, materials: [&Material; 2], depth: usize) {
+        let pad = "  ".repeat(depth);
+        // What scales the chequer would scale the materials in it, too.
+        let place = DAffine3 {
+            matrix3: DMat3::from_diagonal(DVec3::new(side, TALL, side)),
+            translation: DVec3::new(origin.x, -TALL / 2.0, origin.y),
+        };
+        line!(self, "{pad}texture {{");
+        line!(self, "{pad}  checker");
+        for material in materials {
+            self.material(material, depth + 1, place.inverse());
+        }
+        self.transform(depth + 1, place);
+        line!(self, "{pad}}}");
     }
 
     fn material(&mut self, material: &Material, depth: usize, place: DAffine3) {

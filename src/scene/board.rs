@@ -36,8 +36,8 @@ const STEP: f64 = 0.12;
 /// How far the table lies below the squares.
 pub const DEPTH: f64 = 1.6;
 
-/// Where in the frame the inlay begins and ends, from the squares on.
-const INLAY: [f64; 2] = [0.0, 0.16];
+/// How wide the inlay between squares and frame is.
+const INLAY: f64 = 0.16;
 
 /// The board, and the table if there is one; coordinates, where they are asked for, for a viewer who
 /// has the side `near` before him.
@@ -147,6 +147,11 @@ pub struct Joinery {
 }
 
 impl Joinery {
+    /// How wide the line between squares and frame is, 0 where there is none.
+    pub fn inlay_width(&self) -> f64 {
+        if self.has_inlay { INLAY } else { 0.0 }
+    }
+
     /// The material at a place of the world, and the place as the piece of wood has it.
     pub fn material(&self, place: Place) -> (&Material, Place) {
         let [dark, light, frame, inlay] = &self.materials;
@@ -165,8 +170,10 @@ impl Joinery {
             let part = 64 + 2 * u64::from(along_x) + u64::from(side > 0.0);
             let axis = if along_x { DVec3::Z } else { DVec3::X };
             let middle = MIDDLE + axis * (HALF + FRAME / 2.0) * side.signum();
-            let is_inlay = self.has_inlay && INLAY[0] <= beyond && beyond < INLAY[1];
-            return (if is_inlay { inlay } else { frame }, cut(part, middle, along_x));
+            return (
+                if beyond < self.inlay_width() { inlay } else { frame },
+                cut(part, middle, along_x),
+            );
         }
         let cell = (place.point / SQUARE + 0.5).floor();
         let (file, rank) = (cell.x as u64, cell.z as u64);

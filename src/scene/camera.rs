@@ -1,5 +1,7 @@
 //! The camera: from places on the picture to rays.
 
+use std::f64::consts::TAU;
+
 use glam::DVec3;
 
 use crate::config::Pose;
@@ -20,6 +22,9 @@ pub struct Camera {
     /// Half of the picture's width: as seen at distance 1 in perspective, in world units in
     /// parallel projection.
     half_width: f64,
+    /// Radius of the lens, and how far ahead what is sharp lies, in world units.
+    lens: f64,
+    focus: f64,
 }
 
 /// Where rays come from.
@@ -40,7 +45,7 @@ impl Camera {
         projection: Projection,
         half_width: f64,
     ) -> Camera {
-        Camera { position, right, up, forward, projection, half_width }
+        Camera { position, right, up, forward, projection, half_width, lens: 0.0, focus: 1.0 }
     }
 
     /// The pinhole camera that stands free. Its true angle from left to right is half of `fov`: the
@@ -78,6 +83,26 @@ impl Camera {
         // Straight down, what points up in the picture is the way ahead.
         let ahead = if self.forward.y.abs() > 1.0 - 1e-9 { self.up } else { self.forward };
         libm::atan2(-ahead.x, ahead.z).to_degrees()
+    }
+
+    /// This camera with a lens of a `radius` in world units that shows `point` sharp; nothing changes
+    /// when it does not lie ahead.
+    pub fn focused(&self, radius: f64, point: DVec3) -> Camera {
+        let focus = (point - self.position).dot(self.forward);
+        if focus > 0.0 { Camera { lens: radius, focus, ..*self } } else { *self }
+    }
+
+    /// The ray that [`Camera::ray`] gives, from another point of the lens: `u` and `v`, each 0 to 1,
+    /// choose it.
+    pub fn ray_through_lens(&self, pinhole: Ray, (u, v): (f64, f64)) -> Ray {
+        if self.lens == 0.0 {
+            return pinhole;
+        }
+        let sharp = pinhole.at(self.focus / pinhole.direction.dot(self.forward));
+        let (sin, cos) = libm::sincos(TAU * v);
+        let beside = (self.right * cos + self.up * sin) * (self.lens * u.sqrt());
+        let origin = pinhole.origin + beside;
+        Ray { origin, direction: (sharp - origin).normalize() }
     }
 
     /// Where it stands.
@@ -172,6 +197,19 @@ mod tests {
         assert_eq!(seen_at(&camera, DVec3::new(14.0, 0.0, 14.0)), (0.0, 0.0));
         let (x, y) = seen_at(&camera, DVec3::new(0.0, 0.0, 28.0));
         assert!(x < 0.0 && y > 0.0);
+    }
+
+    #[test]
+    fn rays_through_a_lens_meet_where_it_is_sharp() {
+        let point = DVec3::new(14.0, 0.0, 14.0);
+        let camera = Camera::free(&Pose::default()).focused(2.0, point);
+        let pinhole = camera.ray(500.0, 300.0, 1000, 600);
+        for pair in [(0.1, 0.2), (0.9, 0.5), (0.5, 0.8)] {
+            let ray = camera.ray_through_lens(pinhole, pair);
+            assert!((ray.origin - pinhole.origin).length() > 0.1);
+            let distance = (point - ray.origin).length();
+            assert!(ray.at(distance).distance(point) < 1e-9);
+        }
     }
 
     #[test]

@@ -21,6 +21,7 @@ mod texture;
 mod timber;
 mod view;
 
+pub use board::{HALF, Joinery, MIDDLE, SQUARE};
 pub use camera::{Camera, Projection};
 pub use coordinates::Side;
 pub use mapping::Mapping;

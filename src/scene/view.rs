@@ -37,7 +37,13 @@ const ORBIT_STEP: f64 = 5.0;
 
 /// The camera that `config` asks for, before any orbit.
 pub fn camera(config: &Config, set: &PieceSet, reach: Reach) -> Camera {
-    let config::Camera { view, orientation, pose } = config.camera;
+    let config::Camera { aperture, focus, .. } = config.camera;
+    pinhole(config, set, reach).focused(aperture / 2.0, focus)
+}
+
+/// The same without its lens.
+fn pinhole(config: &Config, set: &PieceSet, reach: Reach) -> Camera {
+    let config::Camera { view, orientation, pose, .. } = config.camera;
     let half_turn = match orientation {
         Orientation::White => 0.0,
         Orientation::Black => 180.0,

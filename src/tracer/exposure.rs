@@ -11,12 +11,18 @@ use crate::scene::{Rgb, Room, Scene};
 /// Where in the pixel a sample goes through.
 const PLACE: u32 = 0;
 
+/// Where in the lens it does.
+const LENS: u32 = 1;
+
+/// Samples that differ by no more than this part of the error that is small enough are the same.
+const SAME: f64 = 0.15;
+
 /// One bright sample among dark ones counts no more than this: fine highlights do not flicker.
 const BRIGHTEST: f64 = 4.0;
 
 /// Traces `scene` as [`super::render`] does, in the light of `room`. Of a grid the number of rays
-/// alone counts; adaptive, a pixel begins with a quarter of them, and goes on while the error of
-/// its mean seems greater than the threshold.
+/// alone counts; adaptive, a pixel begins with a quarter of them (and stops there and then where the
+/// first are all the same), and goes on while the error of its mean seems greater than the threshold.
 pub fn render(
     scene: &Scene,
     room: &Room,
@@ -25,8 +31,8 @@ pub fn render(
     mode: Antialiasing,
 ) -> (DynamicImage, RayCounts) {
     let (first, most, error) = match mode {
-        Antialiasing::None => (1, 1, 0.0),
-        Antialiasing::Grid(side) => (side * side, side * side, 0.0),
+        Antialiasing::None => (1, 1, -1.0),
+        Antialiasing::Grid(side) => (side * side, side * side, -1.0),
         Antialiasing::Adaptive { rays, threshold } => {
             ((rays * rays / 4).max(1), rays * rays, f64::from(threshold))
         }
@@ -52,7 +58,7 @@ struct Exposure<'a> {
     /// Samples of a pixel at first, and at most.
     first: u32,
     most: u32,
-    /// The error of a pixel's mean that is small enough, of what can be shown.
+    /// The error of a pixel's mean that is small enough, of what can be shown; negative where none is.
     error: f64,
 }
 
@@ -70,12 +76,14 @@ struct Sum {
 impl Exposure<'_> {
     fn pixel(&self, x: u32, y: u32, counts: &mut RayCounts) -> Pixel {
         let mut sum = Sum::default();
-        let mut wanted = self.first;
+        // A few show whether there is anything to see: four of the same are believed.
+        let mut wanted = (self.first / 4).max(1);
         loop {
             for index in sum.count..wanted {
                 sum.add(self.sample(x, y, index, counts));
             }
-            if wanted >= self.most || sum.error() <= self.error {
+            let small_enough = if wanted < self.first { SAME * self.error } else { self.error };
+            if wanted >= self.most || wanted > 1 && sum.error() <= small_enough {
                 return self.developed(&sum);
             }
             wanted = (2 * wanted).min(self.most);
@@ -88,6 +96,7 @@ impl Exposure<'_> {
         let [width, height] = self.size;
         let camera = &self.scene.camera;
         let ray = camera.ray(f64::from(x) + dx, f64::from(y) + dy, width, height);
+        let ray = camera.ray_through_lens(ray, numbers.pair(LENS));
         let across = f64::from(self.first).sqrt().min(4.0);
         let spread = camera.spread(width) / across;
         let Glimpse { light, cover } = self.studio.trace(ray, spread, &numbers, counts);
