@@ -95,11 +95,18 @@ impl Solid for Csg {
     }
 
     fn contains(&self, point: DVec3) -> bool {
+        if !self.bounds.hold(point) {
+            return false;
+        }
         match &self.node {
             Node::Leaf(solid) => solid.contains(point),
             Node::Pair(operation, pair) => {
                 let [first, second] = &**pair;
-                operation.holds(first.contains(point), second.contains(point))
+                match operation {
+                    Operation::Union => first.contains(point) || second.contains(point),
+                    Operation::Intersection => first.contains(point) && second.contains(point),
+                    Operation::Difference => first.contains(point) && !second.contains(point),
+                }
             }
         }
     }
@@ -122,15 +129,56 @@ impl Solid for Csg {
     }
 
     fn nearest(&self, ray: &Ray, range: Interval) -> Option<Hit> {
+        self.bounds.clip(ray, range)?;
         match &self.node {
             Node::Leaf(solid) => solid.nearest(ray, range),
-            // Where the second solid is out of the way, only an intersection misses it.
-            Node::Pair(Operation::Union | Operation::Difference, pair)
-                if pair[1].bounds.clip(ray, range).is_none() =>
-            {
-                pair[0].nearest(ray, range)
+            Node::Pair(operation, pair) => operation
+                .first_entry(&pair[0], &pair[1], ray, range)
+                .unwrap_or_else(|| nearest_end(self, ray, range)),
+        }
+    }
+}
+
+impl Operation {
+    /// The nearest hit, where it needs no spans: of a ray that comes from outside. `None` where
+    /// spans have to tell.
+    fn first_entry(
+        self,
+        first: &Csg,
+        second: &Csg,
+        ray: &Ray,
+        range: Interval,
+    ) -> Option<Option<Hit>> {
+        // What is entered within the range was not around the ray where that begins.
+        let enters = |hit: &Option<Hit>| hit.is_some_and(|hit| hit.normal.dot(ray.direction) < 0.0);
+        let surrounds = |solid: &Csg| solid.contains(ray.at(range.min));
+        match self {
+            Operation::Union => {
+                let one = first.nearest(ray, range);
+                if one.is_some() && !enters(&one) {
+                    return None;
+                }
+                let nearer = Interval { max: one.map_or(range.max, |hit| hit.t), ..range };
+                match second.nearest(ray, nearer) {
+                    None if one.is_none() => Some(None),
+                    None => (!surrounds(second)).then_some(one),
+                    other if !enters(&other) || one.is_none() && surrounds(first) => None,
+                    // Of two walls in one place the first one's counts.
+                    other if one.is_some_and(|one| other.is_some_and(|other| one.t <= other.t)) => {
+                        Some(one)
+                    }
+                    other => Some(other),
+                }
             }
-            Node::Pair(..) => nearest_end(self, ray, range),
+            Operation::Difference => {
+                let hit = first.nearest(ray, range);
+                let is_all = match hit {
+                    Some(entry) => enters(&hit) && !second.contains(ray.at(entry.t)),
+                    None => !surrounds(first),
+                };
+                is_all.then_some(hit)
+            }
+            Operation::Intersection => None,
         }
     }
 }

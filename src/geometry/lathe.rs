@@ -247,8 +247,23 @@ impl Solid for Lathe {
     }
 
     fn contains(&self, point: DVec3) -> bool {
-        let u = (point.x * point.x + point.z * point.z).sqrt();
-        surround(&self.segments, DVec2::new(u, point.y))
+        let u2 = point.x * point.x + point.z * point.z;
+        let place = DVec2::new(u2.sqrt(), point.y);
+        // An odd number of segments lies farther out when inside; runs without any are left out.
+        let mut inside = false;
+        let mut pending: smallvec::SmallVec<[usize; 24]> = smallvec::smallvec![0];
+        while let Some(index) = pending.pop() {
+            let node = &self.tree[index];
+            if point.y < node.min_v || point.y > node.max_v || u2 > node.max_u2 {
+                continue;
+            }
+            if node.right == 0 {
+                inside ^= surround(&self.segments[node.segment..=node.segment], place);
+            } else {
+                pending.extend([node.right, index + 1]);
+            }
+        }
+        inside
     }
 
     fn spans(&self, ray: &Ray, spans: &mut Spans) {
