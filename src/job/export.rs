@@ -48,7 +48,7 @@ pub fn export(
         .bitmaps
         .iter()
         .map(|(name, bitmap)| {
-            let encode = |out: &mut dyn Write| encode_png(bitmap.picture(), &[], out);
+            let encode = |out: &mut dyn Write| encode_png(bitmap.picture(), &[], None, out);
             (job.output.with_file_name(name), encode)
         })
         .collect();

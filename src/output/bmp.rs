@@ -1,19 +1,31 @@
 //! BMP, the thesis's format.
 
 use std::io::{self, Write};
+use std::ops::Range;
 
 use image::codecs::bmp::BmpEncoder;
 use image::{ExtendedColorType, ImageError, RgbImage};
 
-/// Encodes `picture` with 24 bits a pixel.
+use super::per_metre;
+
+/// Where the header has the pixels a metre, to the right and upwards.
+const PIXELS_PER_METRE: Range<usize> = 38..46;
+
+/// Encodes `picture` with 24 bits a pixel. With `dpi`, it says how many pixels an inch it is to be
+/// printed with.
 ///
 /// # Errors
 /// What `out` gives.
-pub fn encode_bmp(picture: &RgbImage, mut out: impl Write) -> io::Result<()> {
-    BmpEncoder::new(&mut out)
+pub fn encode_bmp(picture: &RgbImage, dpi: Option<u32>, mut out: impl Write) -> io::Result<()> {
+    let mut bytes = Vec::new();
+    BmpEncoder::new(&mut bytes)
         .encode(picture.as_raw(), picture.width(), picture.height(), ExtendedColorType::Rgb8)
         .map_err(|error| match error {
             ImageError::IoError(error) => error,
             other => io::Error::other(other),
-        })
+        })?;
+    if let (Some(dpi), Some(fields)) = (dpi, bytes.get_mut(PIXELS_PER_METRE)) {
+        fields.copy_from_slice(&[per_metre(dpi).to_le_bytes(); 2].concat());
+    }
+    out.write_all(&bytes)
 }
