@@ -5,11 +5,10 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::board::{MIDDLE, SQUARE, board};
-use super::clock::clock;
 use super::facing::Facing;
 use super::material::{MaterialError, Materials};
 use super::models::model;
-use super::{Camera, Object, Reach, Rgb, Scene, Side, Surface, view};
+use super::{Camera, Object, Reach, Rgb, Scene, Side, Surface, clock, view};
 use crate::assets::Assets;
 use crate::config::{Config, Light};
 use crate::geometry::transform::translation;
@@ -55,7 +54,7 @@ impl Stage {
         let camera = view::camera(config, &set, reach);
         let mut fixed = board(&config.board, &materials, Side::near(&camera))?;
         if config.clock.show {
-            fixed.extend(clock(&config.clock, &materials)?);
+            fixed.extend(clock::clock(&config.clock, &materials, clock::place(camera.axes()[2]))?);
         }
         for settings in &config.models {
             fixed.push(model(settings, &materials)?);

@@ -49,7 +49,7 @@ pub fn camera(config: &Config, set: &PieceSet, reach: Reach) -> Camera {
     };
     let turn = rotation_y(azimuth + half_turn) * rotation_x(elevation);
     let axes = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| turn.transform_vector3(axis));
-    let points = points(config, set, reach);
+    let points = points(config, set, reach, axes[2]);
     let aspect = f64::from(config.width) / f64::from(config.height);
     match field {
         Some(field) => framing::perspective(axes, field, &points, aspect),
@@ -71,8 +71,9 @@ fn stand(view: View) -> Option<Stand> {
 }
 
 /// The corners of all that pictures must hold: the board, the set's tallest piece on every square,
-/// the clock where there is one, and what moves beside the board.
-fn points(config: &Config, set: &PieceSet, reach: Reach) -> Vec<DVec3> {
+/// the clock where there is one, and what moves beside the board, for a camera that looks along
+/// `forward`.
+fn points(config: &Config, set: &PieceSet, reach: Reach, forward: DVec3) -> Vec<DVec3> {
     let men = [&set.pawn, &set.knight, &set.bishop, &set.rook, &set.queen, &set.king];
     let man = men.iter().fold(Bounds::EMPTY, |all, man| all.union(man.bounds()));
     // It may be turned whichever way.
@@ -86,7 +87,7 @@ fn points(config: &Config, set: &PieceSet, reach: Reach) -> Vec<DVec3> {
     };
     let mut boxes = vec![board::bounds(), on(0.0, 0.0), on(7.0, 0.0)];
     if config.clock.show {
-        boxes.push(clock::bounds());
+        boxes.push(clock::bounds(&clock::place(forward)));
     }
     if reach.moves {
         boxes.extend([on(-BESIDE, CARRIED), on(7.0 + BESIDE, CARRIED)]);
@@ -132,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn named_views_hold_all_that_there_is_at_any_aspect() {
+    fn named_views_hold_all_that_there_is_and_see_the_clocks_face_at_any_aspect() {
         let set = thesis_set(1, Normals::Flat).unwrap();
         let still = Reach::default();
         let film = Reach { moves: true, orbit: 0.0 };
@@ -152,6 +153,10 @@ mod tests {
                         let mut config = config(view, orientation, size);
                         config.clock.show = clock;
                         let camera = camera(&config, &set, reach);
+                        let place = clock::place(camera.axes()[2]);
+                        let point = if clock { place.transform_point3(point) } else { point };
+                        let face = place.transform_vector3(DVec3::X);
+                        assert!(face.dot(camera.axes()[2]) < 1e-9, "{name}, {orientation:?}");
                         let aspect = f64::from(size[0]) / f64::from(size[1]);
                         let beyond = beyond(&camera, point, aspect);
                         assert!(beyond < 1.0, "{name}, {orientation:?}, {size:?}: {point}");
