@@ -144,7 +144,7 @@ mod tests {
             (still, false, DVec3::new(0.0, 6.67, 28.0)),
             (still, false, DVec3::new(28.0, 6.67, 0.0)),
             (still, true, DVec3::new(-10.5, 5.2, 20.0)),
-            (film, false, DVec3::new(36.0, 21.56, 28.0)),
+            (film, false, DVec3::new(34.4, 18.76, 28.0)),
         ];
         for (name, view) in VIEWS.into_iter().filter(|(_, view)| stand(*view).is_some()) {
             for orientation in [Orientation::White, Orientation::Black] {
