@@ -37,8 +37,8 @@ fn run() -> anyhow::Result<ExitCode> {
     }
     let Cli { command, messages } = cli::parse();
     let terminal = |signals| Terminal::new(messages.progress, messages.verbosity(), signals);
-    if let Some((picture, look)) = command.picture().filter(|(picture, _)| picture.print_config) {
-        write!(io::stdout(), "{}", picture.settings(look)?.config.to_ini())?;
+    if let Some(config) = command.config_to_print()? {
+        write!(io::stdout(), "{}", config.to_ini())?;
         return Ok(ExitCode::SUCCESS);
     }
     match command {

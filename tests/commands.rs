@@ -146,6 +146,22 @@ fn bad_thesis_lines_and_settings_get_a_sentence() {
             1,
             "view.ini: line 3: FOV is for a camera with View=free, and [Camera] is none",
         ),
+        (
+            &["diagram", "--white", "KE1", "--width", "80"],
+            2,
+            "expected a length above 0 with its unit, mm, cm or in, as in 80mm",
+        ),
+        (
+            &["diagram", "--white", "KE1", "--width", "60in"],
+            2,
+            "--width: 60in at 300 pixels an inch makes 18000 x 13500 pixels, expected 1 to 16384",
+        ),
+        (&["diagram", "--white", "KE1", "--dpi", "300"], 2, "--width <LENGTH>"),
+        (
+            &["diagram", "--white", "KE1", "--width", "8cm", "--dpi", "0"],
+            2,
+            "expected a whole number from 10 to 4800",
+        ),
         (&["diagram", "--white", "KE1", "--ssrays", "0"], 2, "a whole number from 1 to 32"),
         (
             &["export", "--white", "KE1", "-c", "clock.ini", "-o", "-"],
@@ -173,6 +189,27 @@ fn bad_thesis_lines_and_settings_get_a_sentence() {
         assert_eq!(stdout, "", "{arguments:?}");
         assert_eq!(fs::read_dir(here).unwrap().count(), before, "{arguments:?} left something");
     }
+}
+
+#[test]
+fn pictures_for_print_have_the_pixels_and_say_how_wide_they_are() {
+    let folder = folder();
+    let here = folder.path();
+    let print = ["diagram", "--white", "KE1", "--width", "20mm", "--dpi", "72", "--size", "40x30"];
+    for file in ["a.png", "a.bmp"] {
+        let (code, _, stderr) = run(here, &[&print[..], &["-o", file]].concat());
+        assert_eq!(code, 0, "{stderr}");
+        // 20 mm at 72 pixels an inch are 56.7 pixels.
+        assert_eq!(read(&here.join(file)).dimensions(), (57, 43));
+    }
+    // 72 an inch are 2834.6 a metre.
+    let png = fs::read(here.join("a.png")).unwrap();
+    let density = [b"pHYs", &2835_u32.to_be_bytes()[..], &2835_u32.to_be_bytes(), &[1]].concat();
+    assert!(png.windows(density.len()).any(|bytes| bytes == density));
+    let bmp = fs::read(here.join("a.bmp")).unwrap();
+    assert_eq!(bmp[38..46], [2835_u32.to_le_bytes(); 2].concat());
+    let printed = run(here, &[&print[..], &["--print-config"]].concat()).1;
+    assert!(printed.contains("ImageWidth=57\nImageHeight=43\n"), "{printed}");
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! The command line: from arguments to typed jobs.
 
 mod picture;
+mod print;
 mod thesis;
 mod values;
 
@@ -8,15 +9,18 @@ use std::path::{Path, PathBuf};
 
 use anyhow::bail;
 use clap::{Args, ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
-use lightsquare::config::{Look, Shading};
+use lightsquare::config::{Config, Look, Shading};
 use lightsquare::game::{Moment, Selection};
-use lightsquare::job::{BenchJob, DiagramJob, ExportJob, InspectJob, RenderJob, Subject};
+use lightsquare::job::{
+    BenchJob, DiagramJob, ExportJob, InspectJob, PictureSettings, RenderJob, Subject,
+};
 use lightsquare::notation::Placement;
 use lightsquare::output::PictureFormat;
 use lightsquare::timeline::Film;
 
 use crate::progress::{ProgressMode, Verbosity};
 use picture::PictureArgs;
+use print::PrintArgs;
 use values::{FenArg, degrees, fen, fps, game_number, runs, seconds, threads};
 
 /// Reads chess games (PGN), replays them and ray-traces them into numbered pictures.
@@ -128,6 +132,7 @@ const DIAGRAM_EXAMPLES: &str = "\
 Examples:
   lightsquare diagram games/opera-1858.pgn --at 17w -o mate.png
   lightsquare diagram --fen '8/8/8/3k4/8/8/4P3/4K3 w - - 0 1' -o ending.png
+  lightsquare diagram games/opera-1858.pgn --at 9w --camera top --coordinates --width 80mm
   lightsquare diagram --white KE1PE2 --black KD5 -o - | display -";
 
 const INSPECT_EXAMPLES: &str = "\
@@ -199,6 +204,8 @@ pub struct DiagramArgs {
     output: PathBuf,
     #[command(flatten)]
     picture: PictureArgs,
+    #[command(flatten)]
+    print: PrintArgs,
 }
 
 #[derive(Args)]
@@ -312,8 +319,15 @@ impl DiagramArgs {
             let name = self.output.display();
             bail!(UsageError(format!("--output: expected a .png or .bmp file, found `{name}`")));
         }
-        let picture = self.picture.settings(Look::default())?;
-        Ok(DiagramJob { subject: self.subject.into_subject()?, output: self.output, picture })
+        let (picture, dpi) = self.settings()?;
+        Ok(DiagramJob { subject: self.subject.into_subject()?, output: self.output, picture, dpi })
+    }
+
+    /// The settings, with the size that the width on paper asks for, and the pixels an inch.
+    fn settings(&self) -> anyhow::Result<(PictureSettings, Option<u32>)> {
+        let mut picture = self.picture.settings(Look::default())?;
+        let dpi = self.print.apply(&mut picture.config)?;
+        Ok((picture, dpi))
     }
 }
 
@@ -358,14 +372,19 @@ impl SubjectArgs {
 }
 
 impl Command {
-    /// The picture options of a command that has them, and its look where they name none.
-    pub fn picture(&self) -> Option<(&PictureArgs, Look)> {
-        match self {
-            Command::Render(RenderArgs { picture, .. })
-            | Command::Diagram(DiagramArgs { picture, .. }) => Some((picture, Look::default())),
-            Command::Export(ExportArgs { picture, .. }) => Some((picture, Look::Thesis)),
-            Command::Inspect(_) | Command::Bench(_) => None,
-        }
+    /// The settings in force, where a command is asked to print them and do nothing else.
+    pub fn config_to_print(&self) -> anyhow::Result<Option<Config>> {
+        let settings = match self {
+            Command::Render(args) if args.picture.print_config => {
+                args.picture.settings(Look::default())?
+            }
+            Command::Export(args) if args.picture.print_config => {
+                args.picture.settings(Look::Thesis)?
+            }
+            Command::Diagram(args) if args.picture.print_config => args.settings()?.0,
+            _ => return Ok(None),
+        };
+        Ok(Some(settings.config))
     }
 }
 

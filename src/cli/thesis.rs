@@ -94,6 +94,7 @@ pub fn job(arguments: &[String]) -> anyhow::Result<DiagramJob> {
             set: SetName::Thesis,
             threads: given.threads,
         },
+        dpi: None,
     })
 }
 

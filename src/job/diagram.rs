@@ -17,6 +17,8 @@ pub struct DiagramJob {
     /// The picture's file, PNG or BMP by its ending; `-` is the standard output, as PNG.
     pub output: PathBuf,
     pub picture: PictureSettings,
+    /// Pixels an inch of paper, for the file to say; nothing when `None`.
+    pub dpi: Option<u32>,
 }
 
 /// What a diagram took.
@@ -45,9 +47,9 @@ pub fn diagram(
     }
     let picture = studio.picture(&shot.frame);
     if to_stdout {
-        encode_png(&picture, &shot.texts, stdout).map_err(JobError::Write)?;
+        encode_png(&picture, &shot.texts, job.dpi, stdout).map_err(JobError::Write)?;
     } else {
-        write_picture(&job.output, &picture, &shot.texts)?;
+        write_picture(&job.output, &picture, &shot.texts, job.dpi)?;
         progress.say(&format!("{} is written", shown(&job.output)));
     }
     Ok(DiagramSummary { rays: studio.rays(), is_whole: shot.is_whole })

@@ -49,7 +49,7 @@ pub fn export(
         .iter()
         .map(|(name, bitmap)| {
             let encode =
-                |out: &mut dyn Write| encode_png(&bitmap.picture().clone().into(), &[], out);
+                |out: &mut dyn Write| encode_png(&bitmap.picture().clone().into(), &[], None, out);
             (job.output.with_file_name(name), encode)
         })
         .collect();

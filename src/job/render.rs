@@ -263,7 +263,7 @@ impl Run<'_> {
                 _ => self.studio.picture(&frame),
             };
             let name = frame_name(index);
-            write_png(&folder.join(&name), &picture, &texts(game, &frame))?;
+            write_png(&folder.join(&name), &picture, &texts(game, &frame), None)?;
             rows.push(FrameRow::new(name, game, &frame));
             self.progress.frame_done();
             self.summary.frames += 1;

@@ -21,6 +21,11 @@ use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
+/// Pixels a metre, as files count them, where there are `dpi` an inch.
+fn per_metre(dpi: u32) -> u32 {
+    (f64::from(dpi) / 0.0254).round() as u32
+}
+
 /// A file or folder that could not be written.
 #[derive(Debug, thiserror::Error)]
 #[error("{}: cannot be written", path.display())]

@@ -30,7 +30,7 @@ impl PictureFormat {
 }
 
 /// Writes `picture` as the ending of `path` asks, PNG when no format does; `texts` go into its text
-/// chunks where it has such.
+/// chunks where it has such, and `dpi`, the pixels an inch of paper, into its header.
 ///
 /// # Errors
 /// When the file cannot be written.
@@ -38,9 +38,10 @@ pub fn write_picture(
     path: &Path,
     picture: &DynamicImage,
     texts: &[(&str, String)],
+    dpi: Option<u32>,
 ) -> Result<(), OutputError> {
     match PictureFormat::of(path) {
-        Some(PictureFormat::Bmp) => write_whole(path, |out| encode_bmp(picture, out)),
-        Some(PictureFormat::Png) | None => write_png(path, picture, texts),
+        Some(PictureFormat::Bmp) => write_whole(path, |out| encode_bmp(picture, dpi, out)),
+        Some(PictureFormat::Png) | None => write_png(path, picture, texts, dpi),
     }
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::{DVec2, DVec3};
+use glam::{DAffine3, DVec2, DVec3};
 use image::RgbImage;
 
 use super::board::{DEPTH, MIDDLE};
@@ -10,10 +10,10 @@ use super::material::{MaterialError, Materials};
 use super::{Mapping, Material, Object, Surface, Texture};
 use crate::assets::Bitmap;
 use crate::config::{self, Clock, Coat, Finish};
-use crate::geometry::transform::sin_cos;
-use crate::geometry::{Bounds, Cuboid};
+use crate::geometry::transform::{sin_cos, translation};
+use crate::geometry::{Bounds, Cuboid, Placed};
 
-/// Where the case stands: on the table, on the side of the a-file.
+/// The case where it was made: on the table, on the side of the a-file.
 const CASE: Cuboid = Cuboid {
     min: DVec3::new(-10.5, -DEPTH, MIDDLE.z - 6.0),
     max: DVec3::new(-7.5, 5.2, MIDDLE.z + 6.0),
@@ -32,8 +32,23 @@ const RING: DVec3 = DVec3::new(0.72, 0.6, 0.32);
 const INK: DVec3 = DVec3::new(0.08, 0.07, 0.07);
 const RED: DVec3 = DVec3::new(0.75, 0.1, 0.08);
 
-/// The case and its face, which looks over the board; White's dial is on White's side.
-pub fn clock(clock: &Clock, materials: &Materials) -> Result<[Object; 2], MaterialError> {
+/// The way from where the clock was made to where it stands for a camera that looks along `forward`:
+/// beside the a-file, or half a turn about the board's middle from there, such that its face is seen.
+pub fn place(forward: DVec3) -> DAffine3 {
+    if forward.x > 1e-9 {
+        let half_turn = DAffine3::from_scale(DVec3::new(-1.0, 1.0, -1.0));
+        translation(MIDDLE) * half_turn * translation(-MIDDLE)
+    } else {
+        DAffine3::IDENTITY
+    }
+}
+
+/// The case and its face, which looks over the board, at a [`place`]; White's dial is on White's side.
+pub fn clock(
+    clock: &Clock,
+    materials: &Materials,
+    place: DAffine3,
+) -> Result<[Object; 2], MaterialError> {
     let finish = Finish {
         ambient: 0.45,
         diffuse: 0.55,
@@ -49,7 +64,10 @@ pub fn clock(clock: &Clock, materials: &Materials) -> Result<[Object; 2], Materi
     let size = plate.max - plate.min;
     // From in front of it, looking along −x, z lies to the right.
     let filter = materials.config.render.filter;
-    let face = face(size.z, size.y, [clock.white, clock.black]);
+    let times = [clock.white, clock.black];
+    let is_turned = place != DAffine3::IDENTITY;
+    let times = if is_turned { [times[1], times[0]] } else { times };
+    let face = face(size.z, size.y, times);
     let texture = Texture::Bitmap {
         bitmap: Arc::new(Bitmap::new(face, filter)),
         mapping: Mapping {
@@ -61,18 +79,18 @@ pub fn clock(clock: &Clock, materials: &Materials) -> Result<[Object; 2], Materi
         filter,
         linear: materials.is_linear(),
     };
-    Ok([
-        Object::standing(CASE, materials.surface(&clock.case)?),
-        Object::standing(
-            plate,
-            Surface::Uniform(Material { finish, coat: Coat::default(), texture }),
-        ),
-    ])
+    let case = materials.surface(&clock.case)?;
+    let face = Surface::Uniform(Material { finish, coat: Coat::default(), texture });
+    Ok([(CASE, case), (plate, face)].map(|(solid, surface)| Object {
+        body: Placed::new(Arc::new(solid), place),
+        surface,
+        seed: 0,
+    }))
 }
 
-/// What the clock fills.
-pub fn bounds() -> Bounds {
-    Bounds { min: CASE.min, max: CASE.max + DVec3::X * THICKNESS }
+/// What the clock fills at a [`place`].
+pub fn bounds(place: &DAffine3) -> Bounds {
+    Bounds { min: CASE.min, max: CASE.max + DVec3::X * THICKNESS }.transformed(place)
 }
 
 /// Paints a face of `width` × `height` world units with a dial for each of two times, which are in

@@ -5,12 +5,11 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::board::{MIDDLE, SQUARE, board};
-use super::clock::clock;
 use super::facing::Facing;
 use super::material::{MaterialError, Materials};
 use super::models::model;
 use super::noise::hash;
-use super::{Camera, Object, Reach, Rgb, Room, Scene, Side, Surface, view};
+use super::{Camera, Object, Reach, Rgb, Room, Scene, Side, Surface, clock, view};
 use crate::assets::Assets;
 use crate::config::{Config, Light, Shading};
 use crate::geometry::transform::translation;
@@ -58,7 +57,7 @@ impl Stage {
         let camera = view::camera(config, &set, reach);
         let mut fixed = board(&scheme, &materials, Side::near(&camera))?;
         if config.clock.show {
-            fixed.extend(clock(&config.clock, &materials)?);
+            fixed.extend(clock::clock(&config.clock, &materials, clock::place(camera.axes()[2]))?);
         }
         for settings in &config.models {
             fixed.push(model(settings, &materials)?);

@@ -12,10 +12,11 @@ const HOP: f64 = 2.0;
 /// How far a sliding piece is lifted.
 const GLIDE: f64 = 0.05;
 
-/// Where a captured piece leaves the board, in squares: this high, above a king in the middle of a
-/// hop, and this far beyond the middles of the outer files.
-pub const CARRIED: f64 = 3.9;
-pub const BESIDE: f64 = 2.0;
+/// Where a captured piece leaves the board, in squares: this high, above a knight (1.06 squares tall)
+/// in the middle of the hop that takes it, and this far beyond the middles of the outer files, off the
+/// frame. No more: pictures have to hold it.
+pub const CARRIED: f64 = 3.2;
+pub const BESIDE: f64 = 1.6;
 
 /// The paths of one move: who goes where, and what is taken.
 #[derive(Clone, Debug, PartialEq)]
