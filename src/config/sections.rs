@@ -530,7 +530,7 @@ mod tests {
             ("[Clock]\nWhite=61:00", "line 2: White is `61:00`, expected a time"),
             (
                 "[Camera]\nXyzzy=0",
-                "line 2: there is no key `Xyzzy`, expected one of View, Orientation, Position",
+                "line 2: there is no key `Xyzzy`, expected one of View, Orientation, Aperture",
             ),
             ("[Camera]\nFOV=0", "line 2: FOV is `0`, expected a number from 1 to 340"),
             ("[Camera]\nFOV=90\nfov=80", "line 3: FOV is given here a second time in [Camera]"),
