@@ -66,6 +66,8 @@ fn the_thesis_command_line_gives_its_bmp() {
         "3",
         "--set",
         "thesis",
+        "--look",
+        "thesis",
     ];
     let (code, _, stderr) = run(here, &[&today[..], &["-o", "b.png"]].concat());
     assert_eq!(code, 0, "{stderr}");
