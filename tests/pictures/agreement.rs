@@ -106,13 +106,18 @@ fn assert_agreement(name: &str, ours: &RgbImage, theirs: &RgbImage) {
     assert!(unexplained <= 2 + beyond / 20, "{name}: {unexplained} of {beyond} are no edges");
 }
 
+/// The set whose pieces are not the thesis's, and its case; from close by.
+const STAUNTON: &str = "staunton";
+
+const CLOSE: &str = "[Camera]\nPosition=16,12,-22\nLookAt=14,2.2,12\nFOV=70\n";
+
 #[test]
 fn positions_look_as_povray_shows_them() {
     if !has_povray() {
         return;
     }
     let start = "rnbqkbnr/pppppppp/8/8/8/8/PPPPPPPP/RNBQKBNR";
-    let cases: [(&str, &[&str], &str); 7] = [
+    let cases: [(&str, &[&str], &str); 8] = [
         ("start", &["--fen", start], ""),
         ("opera, mate", &[OPERA, "--at", "17w"], ""),
         ("opera, long castling, from above", &[OPERA, "--at", "12w"], ABOVE),
@@ -120,16 +125,18 @@ fn positions_look_as_povray_shows_them() {
         ("bitmaps", &["--white", "KD1"], MAPPED),
         ("a glass ball", &["--white", "PA1", "--black", "KE8"], GLASS_BALL),
         ("the clock", &["--white", "KE1DD1PE2", "--black", "KE8PD4"], CLOCK),
+        (STAUNTON, &["--white", "KE4DD4JC4", "--black", "SF4VG4PB4"], CLOSE),
     ];
     for (name, subject, settings) in cases {
-        let size = if settings.is_empty() || settings == ABOVE { [1000, 600] } else { [500, 300] };
+        let size = if ["", ABOVE, CLOSE].contains(&settings) { [1000, 600] } else { [500, 300] };
         let folder = tempfile::tempdir().unwrap();
         let here = folder.path();
         std::fs::write(here.join("settings.ini"), settings).unwrap();
         letter().save(here.join("letter.bmp")).unwrap();
         let pixels = format!("{}x{}", size[0], size[1]);
         let picture = ["-c", "settings.ini", "--plain", "--aa", "none", "--size", &pixels, "-q"];
-        let look = [&picture[..], &["--set", "thesis"]].concat();
+        let set = if name == STAUNTON { name } else { "thesis" };
+        let look = [&picture[..], &["--set", set]].concat();
         for command in [["diagram", "-o", "ours.png"], ["export", "-o", "scene.pov"]] {
             lightsquare(here).args(command).args(subject).args(&look).assert().success();
         }
