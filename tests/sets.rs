@@ -105,6 +105,17 @@ fn knights_face_x_and_kings_show_their_cross_from_the_side() {
     assert!(king.contains(arm) && !king.contains(DVec3::new(0.0, arm.y, arm.x)));
 }
 
+#[test]
+fn sets_can_be_built_as_coarse_and_as_fine_as_settings_allow() {
+    for set in &BUILT_IN {
+        for subdivisions in [0, 1, 2, 3, 5, 7] {
+            if let Err(error) = piece_set(set, subdivisions, Normals::Smooth) {
+                panic!("{subdivisions} steps: {error}");
+            }
+        }
+    }
+}
+
 /// A copy of the built-in set in a folder.
 fn copied() -> TempDir {
     let folder = TempDir::new().unwrap();

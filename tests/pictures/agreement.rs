@@ -109,6 +109,11 @@ fn assert_agreement(name: &str, ours: &RgbImage, theirs: &RgbImage) {
     assert!(unexplained <= 2 + beyond / 20, "{name}: {unexplained} of {beyond} are no edges");
 }
 
+/// The set whose pieces are not the thesis's, and its case; from close by.
+const STAUNTON: &str = "staunton";
+
+const CLOSE: &str = "[Camera]\nPosition=16,12,-22\nLookAt=14,2.2,12\nFOV=70\n";
+
 #[test]
 fn positions_look_as_povray_shows_them() {
     if !has_povray() {
@@ -124,9 +129,10 @@ fn positions_look_as_povray_shows_them() {
         ("bitmaps", &["--white", "KD1"], MAPPED),
         ("a glass ball", &["--white", "PA1", "--black", "KE8"], GLASS_BALL),
         ("the clock", &["--white", "KE1DD1PE2", "--black", "KE8PD4"], CLOCK),
+        (STAUNTON, &["--white", "KE4DD4JC4", "--black", "SF4VG4PB4"], CLOSE),
     ];
     for (name, subject, settings) in cases {
-        let is_large = ["", ABOVE, TOP].contains(&settings);
+        let is_large = ["", ABOVE, TOP, CLOSE].contains(&settings);
         let size = if is_large { [1000, 600] } else { [500, 300] };
         let folder = tempfile::tempdir().unwrap();
         let here = folder.path();
@@ -134,7 +140,8 @@ fn positions_look_as_povray_shows_them() {
         letter().save(here.join("letter.bmp")).unwrap();
         let pixels = format!("{}x{}", size[0], size[1]);
         let picture = ["-c", "settings.ini", "--plain", "--aa", "none", "--size", &pixels, "-q"];
-        let look = [&picture[..], &["--set", "thesis", "--look", "thesis"]].concat();
+        let set = if name == STAUNTON { name } else { "thesis" };
+        let look = [&picture[..], &["--set", set, "--look", "thesis"]].concat();
         for command in [["diagram", "-o", "ours.png"], ["export", "-o", "scene.pov"]] {
             lightsquare(here).args(command).args(subject).args(&look).assert().success();
         }
