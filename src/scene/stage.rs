@@ -51,7 +51,7 @@ impl Stage {
     pub fn new(config: &Config, assets: &Assets, reach: Reach) -> Result<Stage, MaterialError> {
         let materials = Materials { config, bitmaps: &assets.bitmaps };
         let set = assets.set.clone();
-        let camera = view::camera(config, &set, reach);
+        let camera = view::camera(config, view::extent(&set), reach);
         let mut fixed = board(&config.board, &materials, Side::near(&camera))?;
         if config.clock.show {
             fixed.extend(clock::clock(&config.clock, &materials, clock::place(camera.axes()[2]))?);
