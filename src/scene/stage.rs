@@ -54,7 +54,7 @@ impl Stage {
         let materials = Materials { config, bitmaps: &assets.bitmaps };
         let scheme = config.scheme();
         let set = assets.set.clone();
-        let camera = view::camera(config, &set, reach);
+        let camera = view::camera(config, view::extent(&set), reach);
         let mut fixed = board(&scheme, &materials, Side::near(&camera))?;
         if config.clock.show {
             fixed.extend(clock::clock(&config.clock, &materials, clock::place(camera.axes()[2]))?);

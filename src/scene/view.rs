@@ -35,14 +35,20 @@ struct Stand {
 /// most 0.1 % farther from the axis than in one.
 const ORBIT_STEP: f64 = 5.0;
 
-/// The camera that `config` asks for, before any orbit.
-pub fn camera(config: &Config, set: &PieceSet, reach: Reach) -> Camera {
+/// The smallest box that is known to hold each piece of a set where it was made.
+pub fn extent(set: &PieceSet) -> Bounds {
+    let men = [&set.pawn, &set.knight, &set.bishop, &set.rook, &set.queen, &set.king];
+    men.iter().fold(Bounds::EMPTY, |all, man| all.union(man.bounds()))
+}
+
+/// The camera that `config` asks for, before any orbit, with pieces that fit into `man`.
+pub fn camera(config: &Config, man: Bounds, reach: Reach) -> Camera {
     let config::Camera { aperture, focus, .. } = config.camera;
-    pinhole(config, set, reach).focused(aperture / 2.0, focus)
+    pinhole(config, man, reach).focused(aperture / 2.0, focus)
 }
 
 /// The same without its lens.
-fn pinhole(config: &Config, set: &PieceSet, reach: Reach) -> Camera {
+fn pinhole(config: &Config, man: Bounds, reach: Reach) -> Camera {
     let config::Camera { view, orientation, pose, .. } = config.camera;
     let half_turn = match orientation {
         Orientation::White => 0.0,
@@ -55,7 +61,7 @@ fn pinhole(config: &Config, set: &PieceSet, reach: Reach) -> Camera {
     };
     let turn = rotation_y(azimuth + half_turn) * rotation_x(elevation);
     let axes = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| turn.transform_vector3(axis));
-    let points = points(config, set, reach, axes[2]);
+    let points = points(config, man, reach, axes[2]);
     let aspect = f64::from(config.width) / f64::from(config.height);
     match field {
         Some(field) => framing::perspective(axes, field, &points, aspect),
@@ -76,12 +82,10 @@ fn stand(view: View) -> Option<Stand> {
     Some(Stand { elevation, azimuth, field })
 }
 
-/// The corners of all that pictures must hold: the board, the set's tallest piece on every square,
+/// The corners of all that pictures must hold: the board, the tallest piece on every square,
 /// the clock where there is one, and what moves beside the board, for a camera that looks along
 /// `forward`.
-fn points(config: &Config, set: &PieceSet, reach: Reach, forward: DVec3) -> Vec<DVec3> {
-    let men = [&set.pawn, &set.knight, &set.bishop, &set.rook, &set.queen, &set.king];
-    let man = men.iter().fold(Bounds::EMPTY, |all, man| all.union(man.bounds()));
+fn points(config: &Config, man: Bounds, reach: Reach, forward: DVec3) -> Vec<DVec3> {
     // It may be turned whichever way.
     let radius =
         [man.min.x, man.min.z, man.max.x, man.max.z].map(f64::abs).into_iter().fold(0.0, f64::max);
@@ -115,10 +119,11 @@ fn points(config: &Config, set: &PieceSet, reach: Reach, forward: DVec3) -> Vec<
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::assets::{SetName, piece_set};
     use crate::config::VIEWS;
-    use crate::geometry::Normals;
     use crate::scene::Projection;
+
+    /// As tall and wide as a king.
+    const MAN: Bounds = Bounds { min: DVec3::new(-1.5, 0.0, -1.5), max: DVec3::new(1.5, 6.7, 1.5) };
 
     /// How far from the middle of its picture a point lies, 1 at the edges.
     fn beyond(camera: &Camera, point: DVec3, aspect: f64) -> f64 {
@@ -140,7 +145,6 @@ mod tests {
 
     #[test]
     fn named_views_hold_all_that_there_is_and_see_the_clocks_face_at_any_aspect() {
-        let set = piece_set(&SetName::Thesis, 1, Normals::Flat).unwrap();
         let still = Reach::default();
         let film = Reach { moves: true, orbit: 0.0 };
         // The frame's corner, the top of a king on a8 and on h1, the clock's corner, a queen that is
@@ -158,7 +162,7 @@ mod tests {
                     for (reach, clock, point) in points {
                         let mut config = config(view, orientation, size);
                         config.clock.show = clock;
-                        let camera = camera(&config, &set, reach);
+                        let camera = camera(&config, MAN, reach);
                         let place = clock::place(camera.axes()[2]);
                         let point = if clock { place.transform_point3(point) } else { point };
                         let face = place.transform_vector3(DVec3::X);
@@ -175,10 +179,9 @@ mod tests {
     /// The board's corners stand out most when it is seen by a diagonal.
     #[test]
     fn an_orbit_holds_the_board_all_the_way() {
-        let set = piece_set(&SetName::Thesis, 1, Normals::Flat).unwrap();
         let config = config(View::White, Orientation::White, [150, 100]);
-        let at_rest = camera(&config, &set, Reach::default());
-        let orbits = camera(&config, &set, Reach { moves: false, orbit: 90.0 });
+        let at_rest = camera(&config, MAN, Reach::default());
+        let orbits = camera(&config, MAN, Reach { moves: false, orbit: 90.0 });
         let most = |camera: &Camera| {
             let corner = |turn: u32| {
                 let camera = camera.orbited(MIDDLE, f64::from(turn));
@@ -192,10 +195,9 @@ mod tests {
 
     #[test]
     fn blacks_orientation_is_half_a_turn() {
-        let set = piece_set(&SetName::Thesis, 1, Normals::Flat).unwrap();
         for (name, view) in VIEWS {
             let [white, black] = [Orientation::White, Orientation::Black].map(|orientation| {
-                camera(&config(view, orientation, [150, 100]), &set, Reach::default())
+                camera(&config(view, orientation, [150, 100]), MAN, Reach::default())
             });
             let turned = white.orbited(MIDDLE, 180.0);
             assert!(turned.position().distance(black.position()) < 1e-9, "{name}");
