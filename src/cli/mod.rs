@@ -320,6 +320,13 @@ impl DiagramArgs {
             bail!(UsageError(format!("--output: expected a .png or .bmp file, found `{name}`")));
         }
         let (picture, dpi) = self.settings()?;
+        let is_transparent = picture.config.scheme().background.is_none();
+        if is_transparent && PictureFormat::of(&self.output) == Some(PictureFormat::Bmp) {
+            let name = self.output.display();
+            bail!(UsageError(format!(
+                "--output: expected a .png file for a transparent picture, found `{name}`"
+            )));
+        }
         Ok(DiagramJob { subject: self.subject.into_subject()?, output: self.output, picture, dpi })
     }
 

@@ -13,7 +13,7 @@ use super::optics::{facing, fresnel, grazing, mirrored, refracted};
 use super::sequence::Sequence;
 use super::world::{OFFSET, World};
 use crate::geometry::Ray;
-use crate::scene::{Material, Rgb, Room, Scene, linear_light};
+use crate::scene::{MIDDLE, Material, Rgb, Room, Scene, linear_light};
 
 /// How much of its light a ground under a coat throws back, of what its colour says.
 const GROUND: f64 = 0.9;
@@ -28,9 +28,9 @@ const FREE_SKY: f64 = 0.75;
 /// Rays in a mirror are followed when they count as much as this; fainter ones see the room.
 const MIRRORS_FROM: f64 = 0.02;
 
-/// What has no end melts into the background, from the first of these distances from the origin of
-/// the world to the second.
-const MELTS: [f64; 2] = [70.0, 260.0];
+/// What has no end melts into the background, from the first of these distances from the board to
+/// the second.
+const MELTS: [f64; 2] = [35.0, 190.0];
 
 /// What numbers are for.
 mod purpose {
@@ -318,7 +318,7 @@ impl<'a> Studio<'a> {
 
 /// How much of an endless body has melted into the background at `point`, 0 to 1.
 fn melted(point: DVec3) -> f64 {
-    let t = ((point.length() - MELTS[0]) / (MELTS[1] - MELTS[0])).clamp(0.0, 1.0);
+    let t = (((point - MIDDLE).length() - MELTS[0]) / (MELTS[1] - MELTS[0])).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
 }
 

@@ -120,7 +120,7 @@ fn positions_look_as_povray_shows_them() {
         return;
     }
     let start = "rnbqkbnr/pppppppp/8/8/8/8/PPPPPPPP/RNBQKBNR";
-    let cases: [(&str, &[&str], &str); 8] = [
+    let cases: [(&str, &[&str], &str); 9] = [
         ("start", &["--fen", start], ""),
         ("opera, mate", &[OPERA, "--at", "17w"], ""),
         ("opera, long castling, from above", &[OPERA, "--at", "12w"], ABOVE),

@@ -46,7 +46,7 @@ Coordinates=yes
 Knights=left
 ";
 
-/// Name, settings, antialiasing.
+/// Of the thesis's set and look: name, settings, antialiasing.
 fn cases() -> Vec<(&'static str, String, &'static str)> {
     let filtered = |filter: &str| format!("{MAPPED}[Render]\nFilter={filter}\n");
     vec![
@@ -62,6 +62,15 @@ fn cases() -> Vec<(&'static str, String, &'static str)> {
         ("bitmaps-mip", filtered("mip"), "none"),
     ]
 }
+
+/// Of the default set and look: name, options.
+const STUDIO: [(&str, &[&str]); 5] = [
+    ("studio-wood", &["--quality", "normal"]),
+    ("studio-marble", &["--theme", "marble", "--camera", "player", "--quality", "draft"]),
+    ("studio-glass", &["--theme", "glass", "--camera", "side", "--quality", "draft"]),
+    ("studio-tournament", &["--theme", "tournament", "--camera", "top", "--quality", "draft"]),
+    ("studio-print", &["--theme", "print", "--transparent", "--quality", "draft"]),
+];
 
 /// Rounding may differ from machine to machine: so many steps of 255 may pixels be apart.
 const STEPS: u8 = 2;
@@ -85,34 +94,43 @@ fn panels(expected: &RgbImage, found: &RgbImage) -> RgbImage {
 
 #[test]
 fn pictures_are_as_they_were_when_they_were_looked_at() {
-    let blesses = std::env::var_os("LIGHTSQUARE_BLESS").is_some();
-    let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden");
-    let failures = Path::new(env!("CARGO_TARGET_TMPDIR"));
     let mut complaints = Vec::new();
     for (name, settings, mode) in cases() {
-        let folder = tempfile::tempdir().unwrap();
-        let here = folder.path();
-        std::fs::write(here.join("settings.ini"), settings).unwrap();
-        letter().save(here.join("letter.bmp")).unwrap();
-        lightsquare(here)
-            .args(["diagram", "--fen", ITALIAN, "-c", "settings.ini", "-q", "-o", "found.png"])
-            .args(["--set", "thesis", "--look", "thesis", "--aa", mode, "--size", "200x120"])
-            .assert()
-            .success();
-        let (found, path) = (read(&here.join("found.png")), golden.join(format!("{name}.png")));
-        if blesses {
-            std::fs::copy(here.join("found.png"), &path).unwrap();
-            complaints.push(format!("{name} is blessed: look at {}", path.display()));
-        } else if !path.exists() {
-            complaints.push(format!("{name} has no picture at {}", path.display()));
-        } else if differs(&found, &read(&path)) {
-            let shown = failures.join(format!("{name}.png"));
-            panels(&read(&path), &found).save(&shown).unwrap();
-            complaints.push(format!(
-                "{name} differs: expected, found, 8 × the difference are in {}",
-                shown.display()
-            ));
-        }
+        let thesis = ["--set", "thesis", "--look", "thesis", "--aa", mode];
+        complaints.extend(complaint(name, &settings, &thesis));
+    }
+    for (name, options) in STUDIO {
+        complaints.extend(complaint(name, "", options));
     }
     assert!(complaints.is_empty(), "{}", complaints.join("\n"));
+}
+
+/// What is to be said of a picture, if anything.
+fn complaint(name: &str, settings: &str, options: &[&str]) -> Option<String> {
+    let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden");
+    let failures = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    std::fs::write(here.join("settings.ini"), settings).unwrap();
+    letter().save(here.join("letter.bmp")).unwrap();
+    lightsquare(here)
+        .args(["diagram", "--fen", ITALIAN, "-c", "settings.ini", "-q", "-o", "found.png"])
+        .args(["--size", "200x120"])
+        .args(options)
+        .assert()
+        .success();
+    let (found, path) = (read(&here.join("found.png")), golden.join(format!("{name}.png")));
+    if std::env::var_os("LIGHTSQUARE_BLESS").is_some() {
+        std::fs::copy(here.join("found.png"), &path).unwrap();
+        return Some(format!("{name} is blessed: look at {}", path.display()));
+    }
+    if !path.exists() {
+        return Some(format!("{name} has no picture at {}", path.display()));
+    }
+    differs(&found, &read(&path)).then(|| {
+        let shown = failures.join(format!("{name}.png"));
+        panels(&read(&path), &found).save(&shown).unwrap();
+        let shown = shown.display();
+        format!("{name} differs: expected, found, 8 × the difference are in {shown}")
+    })
 }
