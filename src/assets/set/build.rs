@@ -37,7 +37,7 @@ pub fn build(
     let (solid, _) = builder.named("piece", &format!("the {piece}"), 1, 0)?;
     if let Some((_, part)) = parts.iter().find(|(name, _)| !builder.made.contains_key(*name)) {
         let message = format!("{} is used nowhere, expected it in another part", part.owner);
-        return Err(file.fault(part.line, message));
+        return Err(file.fault(part.line, &message));
     }
     Ok(solid)
 }
@@ -65,7 +65,7 @@ impl Builder<'_> {
         line: usize,
         depth: usize,
     ) -> Result<Made, SetError> {
-        let fault = |message: String| self.file.fault(line, format!("{owner}: {message}"));
+        let fault = |message: String| self.file.fault(line, &format!("{owner}: {message}"));
         match self.made.get(name) {
             Some(Some(made)) => return Ok(made.clone()),
             Some(None) => return Err(fault(format!("the part `{name}` contains itself"))),
@@ -86,7 +86,7 @@ impl Builder<'_> {
 
     fn part(&mut self, part: &Part, depth: usize) -> Result<Made, SetError> {
         let fault =
-            |message: String| self.file.fault(part.line, format!("{}: {message}", part.owner));
+            |message: String| self.file.fault(part.line, &format!("{}: {message}", part.owner));
         if depth > MAX_DEPTH {
             return Err(fault(format!("parts lie in parts more than {MAX_DEPTH} deep")));
         }
@@ -147,7 +147,7 @@ impl Builder<'_> {
                 let bounds = solid.bounds();
                 if bounds.min.cmpgt(bounds.max).any() {
                     let message = format!("{}: its parts have nothing in common", part.owner);
-                    return Err(self.file.fault(part.line, message));
+                    return Err(self.file.fault(part.line, &message));
                 }
                 return Ok((solid, count));
             }
@@ -161,12 +161,12 @@ impl Builder<'_> {
             return Ok(());
         }
         let message = format!("{}: the piece has more than {MAX_POINTS} points", part.owner);
-        Err(self.file.fault(part.line, message))
+        Err(self.file.fault(part.line, &message))
     }
 
     fn bad_curve(&self, curve: &Curve, part: &Part, error: &CurveError) -> SetError {
         let line = curve.line_of(error).unwrap_or(part.line);
-        self.file.fault(line, format!("{}: {error}", part.owner))
+        self.file.fault(line, &format!("{}: {error}", part.owner))
     }
 }
 

@@ -58,7 +58,7 @@ impl Part {
         table.know("key", &known.collect::<Vec<_>>())?;
         if let Some(key) = OF_PRISMS.into_iter().find(|key| table.has(key) && shape != "prism") {
             let message = format!("{}: `{key}` is for a prism, and this is none", table.owner);
-            return Err(table.file.fault(table.line_of(key), message));
+            return Err(table.file.fault(table.line_of(key), &message));
         }
         let scale = table.vector("scale", SCALES.1)?.unwrap_or(DVec3::ONE);
         if scale.abs().min_element() < SCALES.0 {
@@ -109,7 +109,7 @@ fn the_shape(table: &Table) -> Result<&'static str, SetError> {
             match table.keys().find(is_other) {
                 Some(key) => {
                     let message = format!("{}: {}", table.owner, unknown("shape", key, SHAPES));
-                    Err(table.file.fault(table.line_of(key), message))
+                    Err(table.file.fault(table.line_of(key), &message))
                 }
                 None => {
                     let shapes = SHAPES.join(", ");

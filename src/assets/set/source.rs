@@ -16,6 +16,9 @@ const FILES: [&str; 7] = ["set", "pawn", "knight", "bishop", "rook", "queen", "k
 /// More bytes than any file of a set needs.
 const MAX_BYTES: u64 = 256 * 1024;
 
+/// The most characters of a message: a quoted word may be as long as its file.
+const LONGEST: usize = 400;
+
 /// Which set of chessmen.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum SetName {
@@ -133,8 +136,8 @@ impl File {
     /// The file as TOML whose parts know where they stand.
     pub fn parse(&self) -> Result<Spanned<DeTable<'_>>, SetError> {
         DeTable::parse(&self.text).map_err(|error| {
-            let line = error.span().map(|span| self.line(span.start));
-            SetError { file: self.name.clone(), line, message: error.message().to_owned() }
+            let line = error.span().map_or(1, |span| self.line(span.start));
+            self.fault(line, error.message())
         })
     }
 
@@ -143,8 +146,10 @@ impl File {
         1 + self.text.bytes().take(at).filter(|byte| *byte == b'\n').count()
     }
 
-    /// That something is wrong in a line.
-    pub fn fault(&self, line: usize, message: String) -> SetError {
+    /// That something is wrong in a line; what the message quotes may hold anything.
+    pub fn fault(&self, line: usize, message: &str) -> SetError {
+        let plain = |letter: char| if letter.is_control() { ' ' } else { letter };
+        let message = message.chars().take(LONGEST).map(plain).collect();
         SetError { file: self.name.clone(), line: Some(line), message }
     }
 }

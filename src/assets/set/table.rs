@@ -43,13 +43,13 @@ impl<'a> Table<'a> {
 
     /// That something is wrong with the whole table.
     pub fn fault(&self, message: String) -> SetError {
-        self.file.fault(self.line, format!("{} {message}", self.owner))
+        self.file.fault(self.line, &format!("{} {message}", self.owner))
     }
 
     /// That something is wrong with the value of `key`.
     pub fn wrong(&self, key: &str, expected: &str) -> SetError {
         let line = self.line_of(key);
-        self.file.fault(line, format!("{}: `{key}`: expected {expected}", self.owner))
+        self.file.fault(line, &format!("{}: `{key}`: expected {expected}", self.owner))
     }
 
     /// The line of a key.
@@ -62,7 +62,7 @@ impl<'a> Table<'a> {
         match self.keys().find(|key| !known.contains(key)) {
             Some(key) => {
                 let message = unknown(what, key, known.iter().copied());
-                Err(self.file.fault(self.line_of(key), format!("{}: {message}", self.owner)))
+                Err(self.file.fault(self.line_of(key), &format!("{}: {message}", self.owner)))
             }
             None => Ok(()),
         }
@@ -152,7 +152,7 @@ impl Text<'_> {
 
     /// That something is wrong in a line.
     pub fn fault(&self, line: usize, message: &str) -> SetError {
-        self.file.fault(line, format!("{}: {message}", self.owner))
+        self.file.fault(line, &format!("{}: {message}", self.owner))
     }
 }
 
