@@ -61,7 +61,7 @@ pub fn materials(look: Look) -> BTreeMap<String, Material> {
         ("chalk", matt(0xf7f5f0)),
         ("pale-grey", matt(0xe9e9e6)),
         ("mid-grey", matt(0x9c9fa3)),
-        ("slate", matt(0x5f5d5c)),
+        ("slate", matt(0x59585a)),
         ("graphite", matt(0x3a3b40)),
         ("frosted-glass", satin(plain(hex(0xc4c8cb)))),
         ("slate-glass", satin(plain(hex(0x6f757b)))),
