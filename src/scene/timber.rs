@@ -10,7 +10,7 @@ use super::noise::{hash, perlin};
 const LEAN: f64 = 0.05;
 
 /// Means of the parts of [`shade`], which they fade to where they are too fine to be seen.
-const RING_MEAN: f64 = 0.22;
+const RING_MEAN: f64 = 0.16;
 
 /// How dark the wood is at `point` (z along the grain, in widths of a ring), 0 to 1 and about
 /// [`MEAN`] on the whole. Every `seed` is another tree; `seen` widths of a ring are seen at once,
@@ -30,11 +30,13 @@ pub fn shade(point: DVec3, seed: u64, seen: f64) -> f64 {
     // Early wood turns slowly into dark late wood, which ends at once.
     let t = radius - ring;
     let late = t * t * (1.0 - smooth((t - 0.86) / 0.14));
-    let year = 0.45 + 0.55 * share(hash(seed, ring as i64 as u64));
-    let rings = (late * year * 1.15 - RING_MEAN) * visible(seen, 1.0);
-    let fibres = 0.2 * wind(0.17, 9.0) * visible(seen, 0.3);
-    let drift = 0.14 * wind(7.0, 60.0);
-    (MEAN + rings + fibres + drift + 0.16 * (tone - 0.5)).clamp(0.0, 1.0)
+    // Good years and bad ones, and now and then a very dark line.
+    let year = share(hash(seed, ring as i64 as u64));
+    let year = 0.2 + 0.55 * year + 0.65 * year * year * year * year;
+    let rings = (late * year - RING_MEAN) * visible(seen, 1.0);
+    let fibres = 0.26 * wind(0.19, 9.0) * visible(seen, 0.3);
+    let drift = 0.24 * wind(6.0, 50.0);
+    (MEAN + rings + fibres + drift + 0.3 * (tone - 0.5)).clamp(0.0, 1.0)
 }
 
 /// The mean of [`shade`].
