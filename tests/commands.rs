@@ -158,6 +158,27 @@ fn bad_thesis_lines_and_settings_get_a_sentence() {
             2,
             "--width: 60in at 300 pixels an inch makes 18000 x 13500 pixels, expected 1 to 16384",
         ),
+        (
+            &["diagram", "--white", "KE1", "--theme", "wod"],
+            2,
+            "--theme: there is no theme `wod`, did you mean `wood`?",
+        ),
+        (
+            &["diagram", "--white", "KE1", "--look", "stodio"],
+            2,
+            "[possible values: studio, thesis]\n\n  tip: a similar value exists: 'studio'",
+        ),
+        (&["diagram", "--white", "KE1", "--quality", "best"], 2, "draft, normal, high, print]"),
+        (
+            &["diagram", "--white", "KE1", "--transparent", "-o", "a.bmp"],
+            2,
+            "--output: expected a .png file for a transparent picture, found `a.bmp`",
+        ),
+        (
+            &["export", "--white", "KE1", "--look", "studio"],
+            2,
+            "POV-Ray's scenes are written as Phong's model has them, expected --look thesis",
+        ),
         (&["diagram", "--white", "KE1", "--dpi", "300"], 2, "--width <LENGTH>"),
         (
             &["diagram", "--white", "KE1", "--width", "8cm", "--dpi", "0"],

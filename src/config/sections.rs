@@ -133,7 +133,7 @@ struct Use {
 enum Part {
     Body,
     Plane,
-    /// One kind of the board's squares.
+    /// A part of the board that is cut from one material.
     Square,
 }
 
@@ -249,7 +249,7 @@ pub fn interpret(
     }
     // What a file does not mention is used too, and may be of a material that it changes.
     let part = |key: &str| match key {
-        "Light" | "Dark" => Part::Square,
+        "Light" | "Dark" | "Frame" | "Inlay" => Part::Square,
         "Table" => Part::Plane,
         _ => Part::Body,
     };
@@ -414,7 +414,7 @@ fn check_use(config: &Config, used: &Use, faults: &mut Vec<Fault>) {
             "{key} `{name}` is transparent, expected another: a plane has no inside to look through"
         ),
         Some(material) if *of == Part::Square && material.texture == Texture::Chequer => {
-            format!("{key} `{name}` is a chequer, expected a material for one kind of squares")
+            format!("{key} `{name}` is a chequer, expected a material of one kind")
         }
         Some(_) => return,
     };
@@ -517,6 +517,22 @@ mod tests {
             ("[Material m]\nGrain=x", "line 2: Grain is for a texture of wood"),
             ("[Board]\nLight=c\n[Material c]\nTexture=chequer", "line 2: Light `c` is a chequer"),
             ("[Material light]\nTexture=chequer", "Light `light` is a chequer"),
+            (
+                "[GlobalSettings]\nTheme=marbel",
+                "line 2: Theme: there is no theme `marbel`, did you mean `marble`?",
+            ),
+            (
+                "[Theme mine]\nLight=mapel",
+                "line 2: Light: there is no material `mapel`, did you mean `maple`?",
+            ),
+            ("[Theme glass]\nTable=glass", "line 2: Table `glass` is transparent"),
+            (
+                "[GlobalSettings]\nBackgroundColor=red",
+                "line 2: BackgroundColor is `red`, expected three numbers from 0 to 1 with commas \
+                 between them, or transparent",
+            ),
+            ("[Camera]\nFocus=1,2,3", "line 2: Focus is for a camera with an Aperture"),
+            ("[Room]\nBounce=2", "line 2: Bounce is `2`, expected a number from 0 to 1"),
             ("[Material none]\n", "line 1: a material cannot be named none"),
             (
                 "[Material a]\n[Material  A]\n",
