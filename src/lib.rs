@@ -4,8 +4,8 @@
 //! ```text
 //! PGN text ─ game ─ timeline ─ scene ─ tracer ─ output
 //!              │       │          │       │        └ numbered pictures, manifests, reports
-//!              │       │          │       └ Scene → pixels
-//!              │       │          └ Frame → bodies, materials, lights, camera
+//!              │       │          │       └ Scene → pixels, by Phong's sum or in the studio's light
+//!              │       │          └ Frame → bodies, materials, lights or a room, camera
 //!              │       └ which pieces stand or move where at time t, and the camera's turn
 //!              └ tags, start position, legal moves
 //! notation: Placement ⇄ "VA1JB1…"   the seam: the chess side ends in it, the picture side starts
@@ -17,7 +17,7 @@
 //! | [`game`] | reading PGN into games; selection | notation |
 //! | [`timeline`] | frames: at time *t* a placement, the movers between squares, each piece's identity | game, notation |
 //! | [`config`] | `config.ini`, typed and range-checked | – |
-//! | [`assets`] | piece sets as data, bitmaps | config, geometry |
+//! | [`assets`] | piece sets from TOML (`docs/piece-sets.md`), bitmaps | config, geometry |
 //! | [`geometry`] | rays, spans, bounds, transforms, curves, and one file a shape | – |
 //! | [`scene`] | materials, textures, lights, camera, board, clock and pieces; builds a [`scene::Scene`] from a frame | geometry, config, assets, notation, timeline |
 //! | [`tracer`] | rays through a whole scene, shading, antialiasing; a picture in memory | geometry, scene |
@@ -34,6 +34,12 @@
 //! from the thesis: light loses a share at each surface of glass, where the thesis has full shadows;
 //! total internal reflection throws all back, whatever the material's shares; colours are cut to what
 //! can be shown when they are stored, not at each surface.
+//!
+//! A look ([`config::Look`]) is no more than what all settings are before a file or flag changes them.
+//! Which of the tracer's two eyes is used is one of them ([`config::Shading`]): a [`scene::Scene`]
+//! with a [`scene::Room`] is seen in its soft light, one without by Phong's sum, the thesis's. Both
+//! ask the same solids. Colours of the settings are as pictures store them; for the studio they become
+//! linear light when the scene is built.
 
 pub mod assets;
 pub mod config;

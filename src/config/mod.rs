@@ -3,6 +3,7 @@
 //! A new key is a field of a settings type and a line in the table of its section.
 
 mod camera;
+mod checks;
 mod ini;
 mod keys;
 mod look;

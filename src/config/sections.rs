@@ -2,15 +2,15 @@
 
 use std::path::Path;
 
+use super::checks::{PartLines, Use, check_material, check_materials};
 use super::ini::Section;
 use super::keys::{Key, Lines, key, read_section, show_section, unknown};
 use super::values::{
     Choice, ColorOrTransparent, Integer, Name, Number, Optional, PLACE, Time, Triple, YES_NO,
 };
 use super::{
-    Clock, Config, FARTHEST, Fault, Filter, Finish, Knights, Light, MAX_RAYS, MAX_SIDE, Mapping,
-    Material, Model, Normals, Render, Room, SHORTEST, Sampling, Shading, Shape, Texture, camera,
-    material, model, theme,
+    Clock, Config, FARTHEST, Fault, Filter, Knights, Light, MAX_RAYS, MAX_SIDE, Model, Normals,
+    Render, Room, Sampling, Shading, Shape, camera, material, model, theme,
 };
 
 const MAX_LIGHTS: u32 = 100;
@@ -120,23 +120,6 @@ struct Numbered<T> {
     lines: Lines,
 }
 
-/// A name of a material in use, and the line that uses it.
-struct Use {
-    line: usize,
-    key: &'static str,
-    name: String,
-    of: Part,
-}
-
-/// What a material is used for.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Part {
-    Body,
-    Plane,
-    /// A part of the board that is cut from one material.
-    Square,
-}
-
 /// Turns sections into settings over those of `base`; whatever cannot be used is added to `faults`.
 /// Files that are named are sought from `folder` on.
 pub fn interpret(
@@ -149,10 +132,8 @@ pub fn interpret(
     let mut lights: Vec<Numbered<Light>> = Vec::new();
     let mut models: Vec<Numbered<Model>> = Vec::new();
     let mut uses: Vec<Use> = Vec::new();
-    let mut clock_lines = Lines::default();
     let mut global_lines = Lines::default();
-    // The lines of a theme's parts, and of those that stand over all themes.
-    let mut part_lines: Vec<(Option<String>, Lines)> = Vec::new();
+    let mut part_lines: Vec<PartLines> = Vec::new();
     let mut seen: Vec<String> = Vec::new();
     for section in document {
         let words: Vec<String> = section.name.split_whitespace().map(str::to_lowercase).collect();
@@ -188,7 +169,8 @@ pub fn interpret(
                 part_lines.push((Some(theme.to_owned()), lines));
             }
             "clock" => {
-                clock_lines = read_section(section, &CLOCK_KEYS, &mut config.clock, faults);
+                let lines = read_section(section, &CLOCK_KEYS, &mut config.clock, faults);
+                uses.push(Use::new(&lines, "Case", &config.clock.case));
             }
             "material none" => {
                 let message = "a material cannot be named none, expected another name".to_owned();
@@ -205,9 +187,9 @@ pub fn interpret(
             _ if let Some(number) = number_after(&name, "model") => {
                 let section: Numbered<Model> = numbered(section, number, &model::KEYS, faults);
                 section.value.check(&section.name, &section.lines, faults);
-                let used = section.lines.uses("Material", &section.value.material);
+                let used = Use::new(&section.lines, "Material", &section.value.material);
                 let is_plane = section.value.shape == Shape::Plane;
-                uses.push(Use { of: if is_plane { Part::Plane } else { used.of }, ..used });
+                uses.push(if is_plane { used.on_plane() } else { used });
                 models.push(section);
             }
             _ => faults.push(Fault {
@@ -247,34 +229,8 @@ pub fn interpret(
         let message = format!("Theme: {}", unknown("theme", &config.theme, known));
         faults.push(Fault { line: global_lines.of("Theme"), message });
     }
-    // What a file does not mention is used too, and may be of a material that it changes.
-    let part = |key: &str| match key {
-        "Light" | "Dark" | "Frame" | "Inlay" => Part::Square,
-        "Table" => Part::Plane,
-        _ => Part::Body,
-    };
-    let themes = config.themes.iter().map(|(name, parts)| (Some(name), parts));
-    for (theme, parts) in themes.chain([(None, &config.parts)]) {
-        for (key, name) in parts.materials() {
-            let line = part_lines
-                .iter()
-                .filter(|(of, lines)| of.as_ref() == theme && lines.give(key))
-                .map(|(_, lines)| lines.of(key))
-                .next();
-            uses.push(Use { of: part(key), line: line.unwrap_or(0), key, name: name.clone() });
-        }
-    }
-    uses.push(clock_lines.uses("Case", &config.clock.case));
-    for used in uses {
-        check_use(&config, &used, faults);
-    }
+    check_materials(&config, &part_lines, uses, faults);
     config
-}
-
-impl Lines {
-    fn uses(&self, key: &'static str, name: &str) -> Use {
-        Use { line: self.of(key), key, name: name.to_owned(), of: Part::Body }
-    }
 }
 
 /// The number behind `word` in `name`, written plainly.
@@ -337,88 +293,6 @@ fn counted<T>(
     }
     sections.sort_by_key(|section| section.number);
     Some(sections.into_iter().map(|section| section.value).collect())
-}
-
-/// Checks what single keys of a material cannot show; its bitmap is sought from `folder` on.
-fn check_material(
-    material: &mut Material,
-    section: &str,
-    folder: &Path,
-    lines: &Lines,
-    faults: &mut Vec<Fault>,
-) {
-    let mut fault = |key, message| faults.push(Fault { line: lines.of(key), message });
-    let Finish { reflectivity, transparency, .. } = material.finish;
-    // Each surface splits a ray in two; together they must not become more than it was.
-    if reflectivity + transparency > 1.0 + 1e-9 {
-        let sum = reflectivity + transparency;
-        let message = format!("Reflectivity and Transparency are {sum} together, expected up to 1");
-        fault(if lines.give("Transparency") { "Transparency" } else { "Reflectivity" }, message);
-    }
-    if material.texture != Texture::Bitmap {
-        return;
-    }
-    if lines.failed("Bitmap") {
-        return;
-    }
-    if lines.give("Bitmap") {
-        material.bitmap = folder.join(&material.bitmap);
-    }
-    if material.bitmap.as_os_str().is_empty() {
-        fault("Texture", format!("[{section}] has no Bitmap, expected the name of a picture"));
-    } else if let Some(found) = unusable(&material.bitmap) {
-        let path = material.bitmap.display();
-        fault("Bitmap", format!("the picture `{path}` {found}, expected a BMP or PNG file"));
-    }
-    for (key, vector) in [("U", material.u), ("V", material.v)] {
-        if vector.length() < SHORTEST {
-            fault(key, format!("{key} has no length, expected a direction"));
-        }
-    }
-    let both = material.u.cross(material.v).length();
-    let area = material.u.length() * material.v.length();
-    if area > 0.0 && both < 1e-9 * area {
-        let expected = match material.mapping {
-            Mapping::Planar => "two sides of the picture",
-            Mapping::Cylindrical | Mapping::Spherical => "an axis and a direction from it",
-        };
-        fault("V", format!("U and V have the same direction, expected {expected}"));
-    }
-}
-
-/// What is wrong with a picture, as far as its first bytes tell.
-fn unusable(path: &Path) -> Option<String> {
-    if !path.exists() {
-        return Some("is not there".to_owned());
-    }
-    if !path.is_file() {
-        return Some("is no file".to_owned());
-    }
-    match image::image_dimensions(path) {
-        Err(error) => Some(format!("cannot be read ({error})")),
-        Ok((width, height)) if width.max(height) > MAX_SIDE => {
-            Some(format!("is {width} x {height} pixels, at most {MAX_SIDE} a side are read"))
-        }
-        Ok(_) => None,
-    }
-}
-
-fn check_use(config: &Config, used: &Use, faults: &mut Vec<Fault>) {
-    let Use { line, key, name, of } = used;
-    let message = match config.materials.get(name) {
-        None => {
-            let known = config.materials.keys().map(String::as_str);
-            format!("{key}: {}", unknown("material", name, known))
-        }
-        Some(material) if *of == Part::Plane && material.is_transparent() => format!(
-            "{key} `{name}` is transparent, expected another: a plane has no inside to look through"
-        ),
-        Some(material) if *of == Part::Square && material.texture == Texture::Chequer => {
-            format!("{key} `{name}` is a chequer, expected a material of one kind")
-        }
-        Some(_) => return,
-    };
-    faults.push(Fault { line: *line, message });
 }
 
 /// Prints `config` so that [`interpret`] reads the same again.

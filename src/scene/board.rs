@@ -4,40 +4,20 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
-use super::material::{Material, MaterialError, Materials};
-use super::noise::hash;
-use super::texture::Place;
-use super::{Object, Rgb, Side, Surface, Texture};
+use super::measures::{DEPTH, FRAME, HALF, MIDDLE, SQUARE};
+use super::{Joinery, Material, MaterialError, Materials, Object, Rgb, Side, Surface, Texture};
 use crate::config::{Edge, Scheme};
 use crate::geometry::transform::{rotation_y, translation};
 use crate::geometry::{
     Bounds, ControlPoint, Csg, Cuboid, CurveError, Normals, Outline, Plane, Prism,
 };
 
-/// Width of a square in world units.
-pub const SQUARE: f64 = 4.0;
-
-/// The board's middle; its surface is y = 0, and a1's middle is the origin.
-pub const MIDDLE: DVec3 = DVec3::new(3.5 * SQUARE, 0.0, 3.5 * SQUARE);
-
-/// Half of the playing surface's width.
-pub const HALF: f64 = 4.0 * SQUARE;
-
 /// What the slab lacks at its edges, so that its sides lie within the outer squares and take
 /// their colours.
 const RIM: f64 = 1e-3;
 
-/// How far the frame reaches beyond the squares.
-pub const FRAME: f64 = 2.2;
-
 /// How far a plain base lies below the squares.
 const STEP: f64 = 0.12;
-
-/// How far the table lies below the squares.
-pub const DEPTH: f64 = 1.6;
-
-/// How wide the inlay between squares and frame is.
-const INLAY: f64 = 0.16;
 
 /// The board, and the table if there is one; coordinates, where they are asked for, for a viewer who
 /// has the side `near` before him.
@@ -111,7 +91,7 @@ fn moulded([dark, light]: [Material; 2], frame: Material, inlay: Option<Material
         // The section is a constant that makes a bar, as a test sees to.
         Err(_) => Csg::leaf(block(HALF + FRAME, -DEPTH, 0.0)),
     };
-    let joinery = Joinery { materials: [dark, light, frame, inlay], has_inlay };
+    let joinery = Joinery::new([dark, light, frame, inlay], has_inlay);
     Object::standing(body, Surface::Board(Arc::new(joinery)))
 }
 
@@ -135,53 +115,6 @@ fn section() -> Result<Prism, CurveError> {
     let left = right.map(|point| ControlPoint { at: point.at * DVec2::new(-1.0, 1.0), ..point });
     let outline = Outline::new(right.into_iter().chain(left.into_iter().rev()).collect())?;
     Prism::new(&outline, 4, Normals::Smooth, -half, half)
-}
-
-/// What the parts of a moulded board are made of: each square and each side of the frame from a
-/// piece of its own.
-#[derive(Clone, Debug)]
-pub struct Joinery {
-    /// Dark squares, light squares, frame, inlay.
-    pub materials: [Material; 4],
-    has_inlay: bool,
-}
-
-impl Joinery {
-    /// How wide the line between squares and frame is, 0 where there is none.
-    pub fn inlay_width(&self) -> f64 {
-        if self.has_inlay { INLAY } else { 0.0 }
-    }
-
-    /// The material at a place of the world, and the place as the piece of wood has it.
-    pub fn material(&self, place: Place) -> (&Material, Place) {
-        let [dark, light, frame, inlay] = &self.materials;
-        let cut = |part: u64, middle: DVec3, turned: bool| {
-            let DVec3 { x, y, z } = place.point - middle;
-            let point = if turned { DVec3::new(-z, y, x) } else { DVec3::new(x, y, z) };
-            Place { point, seed: hash(place.seed, part), ..place }
-        };
-        let from_middle = place.point - MIDDLE;
-        let (dx, dz) = (from_middle.x.abs(), from_middle.z.abs());
-        let beyond = dx.max(dz) - HALF;
-        if beyond >= 0.0 {
-            // The grain of mouldings goes along them; they meet in mitres.
-            let along_x = dz > dx;
-            let side = if along_x { from_middle.z } else { from_middle.x };
-            let part = 64 + 2 * u64::from(along_x) + u64::from(side > 0.0);
-            let axis = if along_x { DVec3::Z } else { DVec3::X };
-            let middle = MIDDLE + axis * (HALF + FRAME / 2.0) * side.signum();
-            return (
-                if beyond < self.inlay_width() { inlay } else { frame },
-                cut(part, middle, along_x),
-            );
-        }
-        let cell = (place.point / SQUARE + 0.5).floor();
-        let (file, rank) = (cell.x as u64, cell.z as u64);
-        let is_dark = (file + rank) % 2 == 0;
-        let middle = DVec3::new(cell.x, 0.0, cell.z) * SQUARE;
-        // The dark squares' grain goes across the light squares'.
-        (if is_dark { dark } else { light }, cut(8 * rank + file, middle, is_dark))
-    }
 }
 
 #[cfg(test)]

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use glam::{DAffine3, DVec2, DVec3};
 use image::RgbImage;
 
-use super::board::{DEPTH, MIDDLE};
-use super::material::{MaterialError, Materials};
+use super::materials::{MaterialError, Materials};
+use super::measures::{DEPTH, MIDDLE};
 use super::{Mapping, Material, Object, Surface, Texture};
 use crate::assets::Bitmap;
 use crate::config::{self, Clock, Coat, Finish};

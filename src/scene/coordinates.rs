@@ -4,8 +4,8 @@
 use glam::{DVec2, Vec3Swizzles};
 
 use super::Camera;
-use super::board::{FRAME, HALF, MIDDLE, SQUARE};
 use super::glyphs::{self, REACH};
+use super::measures::{FRAME, HALF, MIDDLE, SQUARE};
 
 /// The height of a digit in world units, from middle to middle of its strokes.
 const SIZE: f64 = 0.46 * FRAME;

@@ -11,25 +11,34 @@ mod coordinates;
 mod facing;
 mod framing;
 mod glyphs;
+mod joinery;
 mod mapping;
 mod material;
+mod materials;
+mod measures;
 mod models;
 mod noise;
 mod room;
 mod stage;
+mod surface;
 mod texture;
 mod timber;
 mod view;
 
-pub use board::{HALF, Joinery, MIDDLE, SQUARE};
 pub use camera::{Camera, Projection};
 pub use coordinates::Side;
+pub use joinery::Joinery;
 pub use mapping::Mapping;
-pub use material::{Material, MaterialError, Rgb, Surface};
+pub use material::{Material, Rgb};
+pub use materials::MaterialError;
+pub use measures::{HALF, MIDDLE, SQUARE};
 pub use room::{Daylight, Room, Softbox};
 pub use stage::Stage;
+pub use surface::Surface;
 pub use texture::{Noise, Place, Texture, linear_light};
 pub use view::Reach;
+
+use materials::Materials;
 
 use crate::config::Light;
 use std::sync::Arc;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::Object;
-use super::material::{MaterialError, Materials};
+use super::materials::{MaterialError, Materials};
 use crate::config::{Model, Shape};
 use crate::geometry::transform::{rotation_x, rotation_y, rotation_z, translation};
 use crate::geometry::{Cuboid, Placed, Plane, Sphere};

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, SQRT_2, TAU};
 use glam::DVec3;
 
 use super::Rgb;
-use super::board::MIDDLE;
+use super::measures::MIDDLE;
 use crate::config::{self, Light};
 use crate::geometry::transform::rotation_y;
 

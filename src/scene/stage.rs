@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::board::{MIDDLE, SQUARE, board};
+use super::board::board;
 use super::facing::Facing;
-use super::material::{MaterialError, Materials};
+use super::materials::{MaterialError, Materials};
+use super::measures::{MIDDLE, SQUARE};
 use super::models::model;
 use super::noise::hash;
 use super::{Camera, Object, Reach, Rgb, Room, Scene, Side, Surface, clock, view};

@@ -3,8 +3,9 @@
 
 use glam::DVec3;
 
-use super::board::{self, MIDDLE, SQUARE};
+use super::board;
 use super::camera::Camera;
+use super::measures::{MIDDLE, SQUARE};
 use super::{clock, framing};
 use crate::assets::PieceSet;
 use crate::config::{self, Config, Orientation, Pose, View};
