@@ -143,7 +143,7 @@ pub fn default_of(look: Look) -> &'static str {
 /// The themes that need no section, by name: light and dark squares, frame, inlay, table, white
 /// and black pieces, background.
 pub fn themes() -> BTreeMap<String, Parts> {
-    let grey = DVec3::splat(0.13);
+    let grey = DVec3::splat(0.24);
     let marble = [
         "honed-white-marble",
         "honed-black-marble",
