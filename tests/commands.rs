@@ -146,7 +146,7 @@ fn bad_thesis_lines_and_settings_get_a_sentence() {
         (
             &["diagram", "--white", "KE1", "-c", "view.ini"],
             1,
-            "view.ini: line 3: FOV is for a camera with View=free, and [Camera] is none",
+            "view.ini: line 3: FOV is for a camera with View=free, which [Camera] is not",
         ),
         (
             &["diagram", "--white", "KE1", "--width", "80"],

@@ -320,13 +320,7 @@ impl DiagramArgs {
             bail!(UsageError(format!("--output: expected a .png or .bmp file, found `{name}`")));
         }
         let (picture, dpi) = self.settings()?;
-        let is_transparent = picture.config.scheme().background.is_none();
-        if is_transparent && PictureFormat::of(&self.output) == Some(PictureFormat::Bmp) {
-            let name = self.output.display();
-            bail!(UsageError(format!(
-                "--output: expected a .png file for a transparent picture, found `{name}`"
-            )));
-        }
+        keep_transparency("--output", &picture.config, &self.output)?;
         Ok(DiagramJob { subject: self.subject.into_subject()?, output: self.output, picture, dpi })
     }
 
@@ -399,6 +393,18 @@ impl InspectArgs {
     pub fn into_job(self) -> InspectJob {
         InspectJob { inputs: self.inputs, selection: self.select, positions: self.positions }
     }
+}
+
+/// Refuses to write a transparent picture in a format that is not.
+fn keep_transparency(flag: &str, config: &Config, output: &Path) -> Result<(), UsageError> {
+    let is_transparent = config.scheme().background.is_none();
+    if is_transparent && PictureFormat::of(output) == Some(PictureFormat::Bmp) {
+        let name = output.display();
+        return Err(UsageError(format!(
+            "{flag}: expected a .png file for a transparent picture, found `{name}`"
+        )));
+    }
+    Ok(())
 }
 
 /// An argument that only proves wrong together with others, or on a second look.

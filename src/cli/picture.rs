@@ -1,5 +1,7 @@
 //! The options that every picture has, and the settings that come of them.
 
+use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, bail};
@@ -26,11 +28,11 @@ pub struct PictureArgs {
     /// How many rays pixels get: draft, normal, high or print; --aa and --ssrays are over it
     #[arg(long, value_name = "NAME", ignore_case = true)]
     quality: Option<QualityArg>,
-    /// Antialiasing: none (0), a grid of rays in each pixel (1), or in those pixels that differ
-    /// from their neighbours (2) [default: grid]
+    /// Antialiasing: none (0), a grid of rays in each pixel (1), or as many in those pixels that
+    /// need it (2) [default: that of the quality]
     #[arg(long, value_name = "MODE", ignore_case = true)]
     aa: Option<AntialiasingMode>,
-    /// Rays along one side of a pixel's grid, from 1 to 32 [default: 2]
+    /// Rays along one side of a pixel's grid, from 1 to 32 [default: that of the quality]
     #[arg(long, value_name = "N", value_parser = rays)]
     ssrays: Option<u32>,
     /// Threads, from 1 to 1024 [default: one a core]
@@ -105,7 +107,8 @@ impl PictureArgs {
         let config_file = config_file(self.config.as_deref());
         let mut config = read_config(Config::new(look), config_file.as_deref())?;
         if let Some(theme) = &self.theme {
-            let name = theme.to_lowercase();
+            let words: Vec<String> = theme.split_whitespace().map(str::to_lowercase).collect();
+            let name = words.join(" ");
             if !config.themes.contains_key(&name) {
                 let known = config.themes.keys().map(String::as_str);
                 bail!(UsageError(format!("--theme: {}", unknown("theme", theme, known))));
@@ -146,6 +149,9 @@ impl PictureArgs {
     }
 }
 
+/// More bytes than any settings need.
+const LARGEST: u64 = 1 << 20;
+
 /// The file of settings: the one that is named, or `./config.ini` where there is one.
 pub fn config_file(named: Option<&Path>) -> Option<PathBuf> {
     let here = Path::new("config.ini");
@@ -160,8 +166,13 @@ pub fn read_config(base: Config, file: Option<&Path>) -> anyhow::Result<Config> 
     if path.is_dir() {
         bail!("{}: is a folder, expected a config.ini", path.display());
     }
-    let bytes =
-        std::fs::read(path).with_context(|| format!("{}: cannot be read", path.display()))?;
+    let mut bytes = Vec::new();
+    File::open(path)
+        .and_then(|file| file.take(LARGEST + 1).read_to_end(&mut bytes))
+        .with_context(|| format!("{}: cannot be read", path.display()))?;
+    if bytes.len() as u64 > LARGEST {
+        bail!("{}: is longer than {LARGEST} bytes, expected a config.ini", path.display());
+    }
     let folder = path.parent().unwrap_or(Path::new(""));
     base.with(&String::from_utf8_lossy(&bytes), folder).with_context(|| path.display().to_string())
 }

@@ -11,9 +11,9 @@ use lightsquare::job::{DiagramJob, PictureSettings, Subject};
 use lightsquare::notation::Placement;
 use lightsquare::output::PictureFormat;
 
-use super::UsageError;
 use super::picture::{config_file, read_config};
 use super::values::{rays, threads};
+use super::{UsageError, keep_transparency};
 
 const USAGE: &str = "lightsquare -config FILE.ini -output FILE.bmp -AA 0|1|2 -ssrays N -cpu N \
                      -whiteplayer PIECES -blackplayer PIECES";
@@ -85,6 +85,7 @@ pub fn job(arguments: &[String]) -> anyhow::Result<DiagramJob> {
     let mut config = read_config(Config::new(Look::Thesis), config_file.as_deref())?;
     config.render.sampling = given.sampling.unwrap_or(config.render.sampling);
     config.render.rays = given.rays.unwrap_or(config.render.rays);
+    keep_transparency("-output", &config, &output)?;
     Ok(DiagramJob {
         subject: Subject::Placement { fen: placement.board_fen(), placement },
         output,

@@ -106,11 +106,11 @@ pub fn read_section<T>(
     for key in keys {
         if let Some(only) = &key.only
             && lines.give(key.name)
-            && !["Shape", "Texture", "View"].iter().any(|key| lines.failed(key))
+            && !["Shape", "Texture", "View", "Aperture"].iter().any(|key| lines.failed(key))
             && !(only.holds)(target)
         {
             let Only { what, .. } = only;
-            let message = format!("{} is for {what}, and [{}] is none", key.name, section.name);
+            let message = format!("{} is for {what}, which [{}] is not", key.name, section.name);
             faults.push(Fault { line: lines.of(key.name), message });
         }
     }

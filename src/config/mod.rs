@@ -272,14 +272,17 @@ impl Config {
 
     /// What all parts are made of: the theme, and what stands over it.
     pub fn scheme(&self) -> Scheme {
+        self.parts_in_force().scheme()
+    }
+
+    fn parts_in_force(&self) -> Parts {
         let theme = self.themes.get(&self.theme);
-        self.parts.over(theme.unwrap_or(&Parts::default())).scheme()
+        self.parts.over(theme.unwrap_or(&Parts::default()))
     }
 
     /// The pictures of the materials that are used.
     pub fn bitmaps(&self) -> BTreeSet<&PathBuf> {
-        let theme = self.themes.get(&self.theme);
-        let parts = self.parts.over(theme.unwrap_or(&Parts::default()));
+        let parts = self.parts_in_force();
         let case = self.clock.show.then_some(&self.clock.case);
         let used = parts.materials().map(|(_, name)| name).chain(case);
         used.chain(self.models.iter().map(|model| &model.material))

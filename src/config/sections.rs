@@ -164,13 +164,23 @@ pub fn interpret(
                 part_lines.push((None, lines));
             }
             _ if let Some(theme) = name.strip_prefix("theme ") => {
-                let parts = config.themes.entry(theme.to_owned()).or_default();
+                let begin = config.themes.get(theme).or(config.themes.get(theme::BASE)).cloned();
+                let parts =
+                    config.themes.entry(theme.to_owned()).or_insert(begin.unwrap_or_default());
                 let lines = read_section(section, &theme::keys(), parts, faults);
                 part_lines.push((Some(theme.to_owned()), lines));
             }
             "clock" => {
                 let lines = read_section(section, &CLOCK_KEYS, &mut config.clock, faults);
                 uses.push(Use::new(&lines, "Case", &config.clock.case));
+            }
+            "theme" | "material" => {
+                let message = format!("[{}] has no name, expected one behind it", section.name);
+                faults.push(Fault { line: section.line, message });
+            }
+            _ if name.contains('"') => {
+                let message = format!("[{}] has a quote in its name, expected none", section.name);
+                faults.push(Fault { line: section.line, message });
             }
             "material none" => {
                 let message = "a material cannot be named none, expected another name".to_owned();
@@ -356,7 +366,7 @@ mod tests {
             ("[Model0]\nShape=plane\nOrigin=0,0,0\nNormal=0,0,0", "line 4: Normal has no length"),
             (
                 "[Model0]\nShape=sphere\nCenter=0,0,0\nRadius=1\nMin=0,0,0",
-                "line 5: Min is for a box, and [Model0] is none",
+                "line 5: Min is for a box, which [Model0] is not",
             ),
             (
                 "[Model0]\nShape=box\nMin=0,0,0\nMax=1,0,1",
@@ -431,7 +441,7 @@ mod tests {
             ),
             (
                 "[Camera]\nFOV=80\nView=top",
-                "line 2: FOV is for a camera with View=free, and [Camera] is none",
+                "line 2: FOV is for a camera with View=free, which [Camera] is not",
             ),
             ("[Pieces]\nKnights=up", "line 2: Knights is `up`, expected one of left, right, enemy"),
             ("[Camera]\nPosition=14,0,14", "line 1: the camera's LookAt is its own Position"),

@@ -132,6 +132,9 @@ impl Parts {
     }
 }
 
+/// What a theme of a new name begins as.
+pub const BASE: &str = "wood";
+
 /// The theme of a look.
 pub fn default_of(look: Look) -> &'static str {
     match look {

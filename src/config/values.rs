@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use glam::DVec3;
 
+use super::nearest;
+
 /// What a value should have been.
 pub type Expected = String;
 
@@ -103,7 +105,9 @@ impl<V: Copy + PartialEq> Format<V> for Choice<V> {
         let found = self.0.iter().find(|(word, _)| word.eq_ignore_ascii_case(text));
         found.map(|(_, value)| *value).ok_or_else(|| {
             let words: Vec<&str> = self.0.iter().map(|(word, _)| *word).collect();
-            format!("one of {}", words.join(", "))
+            let meant = nearest(text, words.iter().copied());
+            let meant = meant.map_or(String::new(), |near| format!(" (did you mean `{near}`?)"));
+            format!("one of {}{meant}", words.join(", "))
         })
     }
 

@@ -1,7 +1,7 @@
 //! Scenes for POV-Ray 3.7, such that it computes what the tracer computes.
 //!
-//! What differs, and is said in the file: coordinates on the frame, which it does not get; smooth normals (its lathes and prisms of straight
-//! segments are shaded flat), MIP levels (it reads bitmaps between four texels), a limit of the
+//! What differs, and is said in the file: coordinates on the frame, which it does not get; smooth
+//! normals (its lathes and prisms of straight segments are shaded flat), MIP levels (it reads bitmaps between four texels), a limit of the
 //! distance, and wood and marble, which become its own patterns of noise. It also sees nothing of
 //! a surface that touches glass from outside (it takes no hit within 0.001 of a ray's origin), and
 //! may see faces inside the union of transparent bodies where their walls lie in one plane. Where a
@@ -98,7 +98,13 @@ impl Writer<'_> {
             scene.max_depth + 1,
             scene.min_weight / FAINTER
         );
-        line!(self, "background {{ rgb {} }}", vector(scene.background.unwrap_or_default()));
+        match scene.background {
+            Some(color) => line!(self, "background {{ rgb {} }}", vector(color)),
+            None => {
+                line!(self, "// Transparent where there is nothing, with +UA.");
+                line!(self, "background {{ rgbt <0, 0, 0, 1> }}");
+            }
+        }
         line!(self, "camera {{");
         let projection = match scene.camera.projection() {
             Projection::Perspective => "perspective",
@@ -305,22 +311,14 @@ impl Writer<'_> {
         match texture {
             Texture::Plain(plain) => line!(self, "{pad}pigment {{ {} }}", color(*plain)),
             Texture::Timber { colors: [ground, ring], ring: size, grain } => {
-                let stretch = match grain {
-                    Axis::X => DVec3::new(20.0, 1.0, 1.0),
-                    Axis::Y => DVec3::new(1.0, 20.0, 1.0),
-                    Axis::Z => DVec3::new(1.0, 1.0, 20.0),
-                } * *size;
+                let stretch = along(*grain) * *size;
                 line!(self, "{pad}pigment {{ bozo");
                 line!(self, "{pad}  color_map {{ [0 {}] [1 {}] }}", color(*ground), color(*ring));
                 line!(self, "{pad}  scale {}", vector(stretch));
                 line!(self, "{pad}}}");
             }
             Texture::Wood { colors: [ring, ground], noise: Noise { size, octaves }, grain } => {
-                let stretch = match grain {
-                    Axis::X => DVec3::new(20.0, 1.0, 1.0),
-                    Axis::Y => DVec3::new(1.0, 20.0, 1.0),
-                    Axis::Z => DVec3::new(1.0, 1.0, 20.0),
-                } * *size;
+                let stretch = along(*grain) * *size;
                 let turbulence = turbulence(*octaves);
                 line!(self, "{pad}pigment {{ bozo frequency 20 {turbulence}");
                 line!(self, "{pad}  color_map {{ [0 {}] [1 {}] }}", color(*ring), color(*ground));
@@ -399,6 +397,15 @@ enum Use {
 impl Use {
     fn carved(self) -> Use {
         if self == Use::Skin { Use::Carved } else { self }
+    }
+}
+
+/// How wood is stretched that grew along `grain`.
+fn along(grain: Axis) -> DVec3 {
+    match grain {
+        Axis::X => DVec3::new(20.0, 1.0, 1.0),
+        Axis::Y => DVec3::new(1.0, 20.0, 1.0),
+        Axis::Z => DVec3::new(1.0, 1.0, 20.0),
     }
 }
 

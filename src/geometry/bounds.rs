@@ -71,10 +71,14 @@ impl Bounds {
     ///
     /// A ray that lies within a face of the box counts as outside.
     pub fn clip(&self, ray: &Ray, range: Interval) -> Option<Interval> {
-        // Zero turns into an infinity of either sign, which is right.
-        let inverse = ray.direction.recip();
-        let low = (self.min - ray.origin) * inverse;
-        let high = (self.max - ray.origin) * inverse;
+        self.clip_by(ray.origin, ray.direction.recip(), range)
+    }
+
+    /// The same for a ray from `origin` whose direction has the reciprocals `inverse`: those of zero are
+    /// infinities of either sign, which is right.
+    pub fn clip_by(&self, origin: DVec3, inverse: DVec3, range: Interval) -> Option<Interval> {
+        let low = (self.min - origin) * inverse;
+        let high = (self.max - origin) * inverse;
         let mut clipped = range;
         for axis in 0..3 {
             clipped.min = low[axis].min(high[axis]).max(clipped.min);

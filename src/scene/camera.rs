@@ -92,12 +92,18 @@ impl Camera {
         if focus > 0.0 { Camera { lens: radius, focus, ..*self } } else { *self }
     }
 
-    /// The ray that [`Camera::ray`] gives, from another point of the lens: `u` and `v`, each 0 to 1,
-    /// choose it.
-    pub fn ray_through_lens(&self, pinhole: Ray, (u, v): (f64, f64)) -> Ray {
+    /// Whether it has a lens.
+    pub fn has_lens(&self) -> bool {
+        self.lens > 0.0
+    }
+
+    /// The ray that [`Camera::ray`] gives, from another point of the lens, if there is one: `choose` gives
+    /// two numbers from 0 to 1 for it.
+    pub fn ray_through_lens(&self, pinhole: Ray, choose: impl Fn() -> (f64, f64)) -> Ray {
         if self.lens == 0.0 {
             return pinhole;
         }
+        let (u, v) = choose();
         let sharp = pinhole.at(self.focus / pinhole.direction.dot(self.forward));
         let (sin, cos) = libm::sincos(TAU * v);
         let beside = (self.right * cos + self.up * sin) * (self.lens * u.sqrt());
@@ -205,7 +211,7 @@ mod tests {
         let camera = Camera::free(&Pose::default()).focused(2.0, point);
         let pinhole = camera.ray(500.0, 300.0, 1000, 600);
         for pair in [(0.1, 0.2), (0.9, 0.5), (0.5, 0.8)] {
-            let ray = camera.ray_through_lens(pinhole, pair);
+            let ray = camera.ray_through_lens(pinhole, || pair);
             assert!((ray.origin - pinhole.origin).length() > 0.1);
             let distance = (point - ray.origin).length();
             assert!(ray.at(distance).distance(point) < 1e-9);

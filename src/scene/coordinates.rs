@@ -8,7 +8,10 @@ use super::glyphs::{self, REACH};
 use super::measures::{FRAME, HALF, MIDDLE, SQUARE};
 
 /// The height of a digit in world units, from middle to middle of its strokes.
-const SIZE: f64 = 0.46 * FRAME;
+const SIZE: f64 = 0.39 * FRAME;
+
+/// How far from the squares their middles are: a moulding leaves less than the whole frame flat.
+const WITHIN: f64 = 0.38 * FRAME;
 
 /// Which height of letters and digits stands in the middle of the frame, in their own unit: the
 /// bowls of letters weigh more than their stems and tails.
@@ -79,7 +82,7 @@ pub fn ink(x: f64, z: f64, near: Side, seen: f64) -> f64 {
     }
     let number = ((along + HALF) / SQUARE).floor().clamp(0.0, 7.0);
     let beside = (number + 0.5) * SQUARE - HALF;
-    let within = HALF + FRAME / 2.0;
+    let within = HALF + WITHIN;
     let label = match side {
         Side::White => DVec2::new(beside, -within),
         Side::Black => DVec2::new(beside, within),
@@ -105,6 +108,9 @@ mod tests {
     use crate::config::Pose;
     use glam::DVec3;
 
+    /// How far from the board's middle the labels' middles are.
+    const AMID: f64 = HALF + WITHIN;
+
     /// Whether there is any ink round a point of the frame, given from the board's middle.
     fn is_labelled(near: Side, x: f64, z: f64) -> bool {
         let inked = |dx: i32, dz: i32| {
@@ -125,11 +131,11 @@ mod tests {
         for (near, labelled) in sides {
             for square in 0..8 {
                 let along = f64::from(4 * square) - 14.0;
-                let places = [(along, -17.1), (17.1, along), (along, 17.1), (-17.1, along)];
+                let places = [(along, -AMID), (AMID, along), (along, AMID), (-AMID, along)];
                 let found = places.map(|(x, z)| is_labelled(near, x, z));
                 assert_eq!(found, labelled, "{near:?}, {square}");
             }
-            assert!(!is_labelled(near, -17.1, -17.1), "{near:?}: the corner");
+            assert!(!is_labelled(near, -AMID, -AMID), "{near:?}: the corner");
             assert!(!is_labelled(near, 0.0, 0.0), "{near:?}: the squares");
         }
     }
@@ -139,10 +145,10 @@ mod tests {
     fn labels_are_upright_for_their_viewer() {
         let stem = DVec2::new(-0.31, 0.9 - LETTERS_MIDDLE) * SIZE;
         for (near, b) in [
-            (Side::White, DVec2::new(-10.0, -17.1) + stem),
-            (Side::Kingside, DVec2::new(-10.0, -17.1) + DVec2::new(-stem.y, stem.x)),
-            (Side::Black, DVec2::new(-10.0, 17.1) - stem),
-            (Side::Queenside, DVec2::new(-10.0, 17.1) + DVec2::new(stem.y, -stem.x)),
+            (Side::White, DVec2::new(-10.0, -AMID) + stem),
+            (Side::Kingside, DVec2::new(-10.0, -AMID) + DVec2::new(-stem.y, stem.x)),
+            (Side::Black, DVec2::new(-10.0, AMID) - stem),
+            (Side::Queenside, DVec2::new(-10.0, AMID) + DVec2::new(stem.y, -stem.x)),
         ] {
             assert!(ink(b.x + 14.0, b.y + 14.0, near, 0.01) == 1.0, "{near:?}");
         }
@@ -152,7 +158,7 @@ mod tests {
     fn ink_fades_over_what_is_seen_at_once() {
         // The stem of h: its middle, its edge, and beside it.
         let across = |x: f64, seen| {
-            let h = DVec2::new(28.0, 14.0 - 17.1) + DVec2::new(-0.28, 0.9 - LETTERS_MIDDLE) * SIZE;
+            let h = DVec2::new(28.0, 14.0 - AMID) + DVec2::new(-0.28, 0.9 - LETTERS_MIDDLE) * SIZE;
             ink(h.x + x, h.y, Side::White, seen)
         };
         let edge = glyphs::PEN * SIZE;

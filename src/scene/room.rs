@@ -121,6 +121,10 @@ impl Softbox {
         let filled = |half: DVec3| {
             let length = half.length();
             let place = met.dot(half) / length;
+            // Farther off there is less than a picture can show.
+            if place.abs() > length + 4.0 * blur {
+                return 0.0;
+            }
             (libm::erf((length - place) / blur) + libm::erf((length + place) / blur)) / 2.0
         };
         if distance <= 0.0 { 0.0 } else { filled(self.half[0]) * filled(self.half[1]) }

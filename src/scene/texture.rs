@@ -70,22 +70,12 @@ impl Texture {
         let Place { point, seed, .. } = place;
         match self {
             Texture::Plain(color) => *color,
-            Texture::Wood { colors, noise, grain } => {
-                let along = match grain {
-                    Axis::X => point.yzx(),
-                    Axis::Y => point.zxy(),
-                    Axis::Z => point,
-                };
-                colors[0].lerp(colors[1], wood(along / noise.size, noise.octaves))
-            }
-            Texture::Timber { colors, ring, grain } => {
-                let along = match grain {
-                    Axis::X => point.yzx(),
-                    Axis::Y => point.zxy(),
-                    Axis::Z => point,
-                };
-                colors[0].lerp(colors[1], timber::shade(along / ring, seed, seen / ring))
-            }
+            Texture::Wood { colors, noise, grain } => colors[0]
+                .lerp(colors[1], wood(lengthways(point, *grain) / noise.size, noise.octaves)),
+            Texture::Timber { colors, ring, grain } => colors[0].lerp(
+                colors[1],
+                timber::shade(lengthways(point, *grain) / ring, seed, seen / ring),
+            ),
             Texture::Lettered { ground, ink, near } => {
                 let cover = coordinates::ink(place.on_body.x, place.on_body.z, *near, seen);
                 ground.color(place, seen).lerp(*ink, cover)
@@ -130,6 +120,15 @@ impl Texture {
                 bitmap.color(DVec2::splat(0.5), Filter::Nearest, Beyond::Stays, 0.0)
             }
         }
+    }
+}
+
+/// A point of wood that grew along `grain`, with z along it.
+fn lengthways(point: DVec3, grain: Axis) -> DVec3 {
+    match grain {
+        Axis::X => point.yzx(),
+        Axis::Y => point.zxy(),
+        Axis::Z => point,
     }
 }
 

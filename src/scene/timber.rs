@@ -21,6 +21,7 @@ pub fn shade(point: DVec3, seed: u64, seen: f64) -> f64 {
     let heart = DVec2::new(cos, sin) * (9.0 + 22.0 * distance);
     // Trees have nothing in common: each lies elsewhere in the noise.
     let along = point.z + 4000.0 * shift;
+    let (rings_left, fibres_left) = (visible(seen, 1.0), visible(seen, 0.3));
     let wind = |across: f64, length: f64| {
         perlin(DVec3::new(point.x / across, point.y / across, along / length))
     };
@@ -33,8 +34,8 @@ pub fn shade(point: DVec3, seed: u64, seen: f64) -> f64 {
     // Good years and bad ones, and now and then a very dark line.
     let year = share(hash(seed, ring as i64 as u64));
     let year = 0.2 + 0.55 * year + 0.65 * year * year * year * year;
-    let rings = (late * year - RING_MEAN) * visible(seen, 1.0);
-    let fibres = 0.26 * wind(0.19, 9.0) * visible(seen, 0.3);
+    let rings = (late * year - RING_MEAN) * rings_left;
+    let fibres = if fibres_left > 0.0 { 0.26 * wind(0.19, 9.0) * fibres_left } else { 0.0 };
     let drift = 0.24 * wind(6.0, 50.0);
     (MEAN + rings + fibres + drift + 0.3 * (tone - 0.5)).clamp(0.0, 1.0)
 }

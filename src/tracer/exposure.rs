@@ -6,13 +6,16 @@ use super::canvas::{Canvas, Pixel};
 use super::sequence::Sequence;
 use super::studio::{Glimpse, Studio};
 use super::{Antialiasing, RayCounts, tone};
-use crate::scene::{Rgb, Room, Scene};
+use crate::scene::{Rgb, Room, Scene, linear_light};
 
 /// Where in the pixel a sample goes through.
 const PLACE: u32 = 0;
 
 /// Where in the lens it does.
 const LENS: u32 = 1;
+
+/// No fewer samples are believed.
+const FEWEST: u32 = 4;
 
 /// Samples that differ by no more than this part of the error that is small enough are the same.
 const SAME: f64 = 0.15;
@@ -34,7 +37,9 @@ pub fn render(
         Antialiasing::None => (1, 1, -1.0),
         Antialiasing::Grid(side) => (side * side, side * side, -1.0),
         Antialiasing::Adaptive { rays, threshold } => {
-            ((rays * rays / 4).max(1), rays * rays, f64::from(threshold))
+            // Samples are most even in powers of two.
+            let quarter = (rays * rays / 4).max(1);
+            (1 << quarter.ilog2(), rays * rays, f64::from(threshold))
         }
     };
     let exposure = Exposure {
@@ -44,6 +49,7 @@ pub fn render(
         first,
         most,
         error,
+        behind: scene.background.map(|color| shown(linear_light(color))),
     };
     let mut picture = Canvas::new(width, height, scene.background.is_none());
     let rows = 0..height as usize;
@@ -60,6 +66,8 @@ struct Exposure<'a> {
     most: u32,
     /// The error of a pixel's mean that is small enough, of what can be shown; negative where none is.
     error: f64,
+    /// How bright the background looks, if there is one.
+    behind: Option<f64>,
 }
 
 /// The samples of a pixel so far.
@@ -71,19 +79,33 @@ struct Sum {
     /// Of how bright samples look, and of its square.
     shown: f64,
     squares: f64,
+    /// Of the square of what they cover.
+    covers: f64,
+}
+
+/// How bright light looks, 0 to 1: a square root is near enough.
+fn shown(light: Rgb) -> f64 {
+    light.dot(Rgb::splat(1.0 / 3.0)).clamp(0.0, 1.0).sqrt()
 }
 
 impl Exposure<'_> {
     fn pixel(&self, x: u32, y: u32, counts: &mut RayCounts) -> Pixel {
         let mut sum = Sum::default();
-        // A few show whether there is anything to see: four of the same are believed.
-        let mut wanted = (self.first / 4).max(1);
+        // A few show whether there is anything to see: if they are all the same, they are believed.
+        let has_lens = self.scene.camera.has_lens();
+        let few = if has_lens { self.first } else { self.first / 4 };
+        let mut wanted = few.max(FEWEST).min(self.most);
         loop {
             for index in sum.count..wanted {
-                sum.add(self.sample(x, y, index, counts));
+                sum.add(self.sample(x, y, index, counts), self.behind);
             }
-            let small_enough = if wanted < self.first { SAME * self.error } else { self.error };
-            if wanted >= self.most || wanted > 1 && sum.error() <= small_enough {
+            // What a lens blurs is made of few bright samples among many.
+            let small_enough = match (wanted < self.first, has_lens) {
+                (true, _) => SAME * self.error,
+                (false, true) => self.error / 2.0,
+                (false, false) => self.error,
+            };
+            if wanted >= self.most || sum.error() <= small_enough {
                 return self.developed(&sum);
             }
             wanted = (2 * wanted).min(self.most);
@@ -96,7 +118,7 @@ impl Exposure<'_> {
         let [width, height] = self.size;
         let camera = &self.scene.camera;
         let ray = camera.ray(f64::from(x) + dx, f64::from(y) + dy, width, height);
-        let ray = camera.ray_through_lens(ray, numbers.pair(LENS));
+        let ray = camera.ray_through_lens(ray, || numbers.pair(LENS));
         let across = f64::from(self.first).sqrt().min(4.0);
         let spread = camera.spread(width) / across;
         let Glimpse { light, cover } = self.studio.trace(ray, spread, &numbers, counts);
@@ -124,22 +146,28 @@ impl Exposure<'_> {
 }
 
 impl Sum {
-    fn add(&mut self, Glimpse { light, cover }: Glimpse) {
+    /// Adds a sample, before a background that looks as bright as `behind`.
+    fn add(&mut self, Glimpse { light, cover }: Glimpse, behind: Option<f64>) {
         self.count += 1;
         self.light += light * cover;
         self.cover += cover;
-        // A square root is near enough to how bright it will look.
-        let shown = light.dot(Rgb::splat(1.0 / 3.0)).clamp(0.0, 1.0).sqrt() * cover;
+        let shown = shown(light) * cover + behind.unwrap_or(0.0) * (1.0 - cover);
         self.shown += shown;
         self.squares += shown * shown;
+        if behind.is_none() {
+            self.covers += cover * cover;
+        }
     }
 
-    /// The standard error of how bright the mean looks, as of samples that know nothing of each
-    /// other; these are more even, and err less.
+    /// The standard error of how bright the mean looks, or of how much is covered of what is
+    /// transparent, as of samples that know nothing of each other; these are more even, and err less.
     fn error(&self) -> f64 {
         let count = f64::from(self.count);
-        let mean = self.shown / count;
-        let variance = (self.squares / count - mean * mean).max(0.0);
-        (variance / (count - 1.0).max(1.0)).sqrt()
+        let error = |sum: f64, squares: f64| {
+            let mean = sum / count;
+            let variance = (squares / count - mean * mean).max(0.0);
+            (variance / (count - 1.0).max(1.0)).sqrt()
+        };
+        error(self.shown, self.squares).max(error(self.cover, self.covers))
     }
 }

@@ -90,13 +90,14 @@ impl<'a> Hierarchy<'a> {
         if self.endless.iter().any(|index| look(*index, range)) {
             return;
         }
+        let inverse = ray.direction.recip();
         let mut pending: SmallVec<[usize; 16]> = smallvec![];
         if !self.nodes.is_empty() {
             pending.push(0);
         }
         while let Some(index) = pending.pop() {
             let node = &self.nodes[index];
-            if node.bounds.clip(ray, *range).is_none() {
+            if node.bounds.clip_by(ray.origin, inverse, *range).is_none() {
                 continue;
             }
             match node.content {

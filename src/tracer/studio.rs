@@ -12,7 +12,7 @@ use super::RayCounts;
 use super::optics::{facing, fresnel, grazing, mirrored, refracted};
 use super::sequence::Sequence;
 use super::world::{OFFSET, World};
-use crate::geometry::Ray;
+use crate::geometry::{Hit, Ray, Solid};
 use crate::scene::{MIDDLE, Material, Rgb, Room, Scene, linear_light};
 
 /// How much of its light a ground under a coat throws back, of what its colour says.
@@ -31,6 +31,18 @@ const MIRRORS_FROM: f64 = 0.02;
 /// What has no end melts into the background, from the first of these distances from the board to
 /// the second.
 const MELTS: [f64; 2] = [35.0, 190.0];
+
+/// No light is brighter in the mirror image of a mirror.
+const BRIGHTEST_IN_A_MIRROR: f64 = 1.0;
+
+/// What is farther than this, in world units, hides no sky; so what moves changes nothing far away.
+const HIDES: f64 = 16.0;
+
+/// The colour of the ground that far away.
+const FAR_GROUND: Rgb = Rgb::splat(0.2);
+
+/// What is seen through glass where the ground is transparent, as pictures store it.
+const PAPER: Rgb = Rgb::splat(0.8);
 
 /// What numbers are for.
 mod purpose {
@@ -86,7 +98,7 @@ struct Meeting<'a> {
 
 impl<'a> Studio<'a> {
     pub fn new(scene: &'a Scene, room: &'a Room) -> Studio<'a> {
-        let background = linear_light(scene.background.unwrap_or(Rgb::splat(0.8)));
+        let background = linear_light(scene.background.unwrap_or(PAPER));
         Studio { world: World::new(scene), room, background }
     }
 
@@ -107,7 +119,7 @@ impl<'a> Studio<'a> {
         };
         let light = self.light(&flight, object, hit, numbers, counts);
         let body = &self.world.scene.objects[object].body;
-        let is_endless = !crate::geometry::Solid::bounds(body).is_finite();
+        let is_endless = !body.bounds().is_finite();
         let cover = if is_endless { 1.0 - melted(ray.at(hit.t)) } else { 1.0 };
         Glimpse { light, cover }
     }
@@ -125,7 +137,7 @@ impl<'a> Studio<'a> {
         &self,
         flight: &Flight,
         object: usize,
-        hit: crate::geometry::Hit,
+        hit: Hit,
         numbers: &Sequence,
         counts: &mut RayCounts,
     ) -> Rgb {
@@ -189,7 +201,7 @@ impl<'a> Studio<'a> {
             }
             sum += light;
         }
-        sum + self.daylight(flight, meeting, numbers.pair(from + purpose::SKY), counts)
+        sum + self.daylight(flight, meeting, numbers, counts)
     }
 
     /// What comes from the sky, and from other surfaces that hide it.
@@ -197,30 +209,29 @@ impl<'a> Studio<'a> {
         &self,
         flight: &Flight,
         meeting: &Meeting,
-        pair: (f64, f64),
+        numbers: &Sequence,
         counts: &mut RayCounts,
     ) -> Rgb {
         let sky = self.room.daylight(meeting.normal);
         if flight.depth > 0 {
             return sky.brightness * (sky.share * FREE_SKY);
         }
-        let direction = scattered(meeting.normal, pair);
+        let direction = scattered(meeting.normal, numbers.pair(purpose::SKY));
         if direction.dot(meeting.outward) <= 0.0 {
             return Rgb::ZERO;
         }
         counts.shadow += 1;
         let way = Ray { origin: meeting.leaving, direction };
-        match self.world.nearest(&way) {
+        match self.world.nearest_within(&way, HIDES) {
             None if direction.y > 0.0 => sky.brightness,
-            None => Rgb::ZERO,
+            None => FAR_GROUND * self.room.bounce,
             Some((index, hit)) => {
                 let object = &self.world.scene.objects[index];
-                let (material, place) = object.material(way.at(hit.t), hit.normal);
-                let seen = (flight.length + hit.t) * flight.spread + 0.2 * hit.t;
+                let (material, _) = object.material(way.at(hit.t), hit.normal);
                 if material.finish.transparency > 0.0 {
                     return sky.brightness * material.finish.transparency;
                 }
-                material.texture.color(place, seen) * self.room.bounce
+                material.texture.mean() * self.room.bounce
             }
         }
     }
@@ -257,8 +268,10 @@ impl<'a> Studio<'a> {
                 return share * self.light(&next, object, hit, numbers, counts);
             }
         }
-        // Softboxes are blurred as a whole, not by samples.
-        share * self.room.radiance(meeting.point, exact, roughness)
+        // Softboxes are blurred as a whole, not by samples; those that are seen at second hand are
+        // found by few, and would leave specks.
+        let seen = self.room.radiance(meeting.point, exact, roughness);
+        share * if flight.depth == 0 { seen } else { seen.min(Rgb::splat(BRIGHTEST_IN_A_MIRROR)) }
     }
 
     /// What is seen in glass, and through it.

@@ -33,6 +33,11 @@ impl<'a> World<'a> {
         self.hierarchy.nearest(ray, self.scene.max_distance)
     }
 
+    /// The nearest object in front of `ray` up to `distance`, and where the ray meets it.
+    pub fn nearest_within(&self, ray: &Ray, distance: f64) -> Option<(usize, Hit)> {
+        self.hierarchy.nearest(ray, distance)
+    }
+
     /// How much of a light at `distance` comes along `ray`.
     pub fn transmission(&self, ray: &Ray, distance: f64) -> f64 {
         self.hierarchy.transmission(ray, distance)

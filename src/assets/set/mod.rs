@@ -8,6 +8,7 @@ mod build;
 mod part;
 mod points;
 mod source;
+mod stand;
 mod table;
 
 pub use source::SetName;
@@ -25,6 +26,9 @@ use crate::geometry::{Csg, Normals};
 
 /// World units of a millimetre: a square is 57 mm and 4 units wide.
 const MILLIMETRE: f64 = 4.0 / 57.0;
+
+/// Half of a square's width in millimetres.
+const HALF_SQUARE: f64 = 28.5;
 
 /// The least and the greatest height of a piece in millimetres.
 const HEIGHTS: (f64, f64) = (10.0, 200.0);
@@ -66,6 +70,10 @@ pub fn piece_set(
         let file = name.read(piece)?;
         let (height, parts) = parts(&file, piece, &curves)?;
         let solid = build(&file, piece, &parts, subdivisions, normals)?;
+        if let Some(fault) = stand::fault(&solid, HALF_SQUARE / height) {
+            let message = format!("the {piece}: {fault}");
+            return Err(SetError { file: file.name.clone(), line: None, message });
+        }
         Ok(solid.placed(scale(height * MILLIMETRE)))
     };
     Ok(PieceSet {
