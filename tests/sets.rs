@@ -256,8 +256,27 @@ fn what_makes_no_piece_is_told_with_its_line() {
         assert!(fault.starts_with(&place), "{text}\ngives {fault}\nnot   {message}");
     }
     // What all these are faulty beside.
-    fs::write(folder.path().join("rook.toml"), format!("{PEG}sphere = 0.5")).unwrap();
+    fs::write(folder.path().join("rook.toml"), format!("{PEG}sphere = 0.5\nat = [0, 0.5, 0]"))
+        .unwrap();
     assert_eq!(fault(&folder), "no fault");
+}
+
+#[test]
+fn what_cannot_stand_on_a_square_is_no_piece() {
+    let nothing = "its parts leave nothing, expected a body";
+    let cases = [
+        ("difference = [{ sphere = 0.5 }, { sphere = 0.6 }]", nothing),
+        ("intersection = [{ sphere = 0.3 }, { sphere = 0.3, at = [0.5, 0.5, 0] }]", nothing),
+        ("sphere = 0.5", "its top is at y = 0.500, expected 1"),
+        ("sphere = 0.3\nat = [0, 0.7, 0]", "its foot is at y = 0.400, expected 0"),
+        ("sphere = 0.5\nat = [0.4, 0.5, 0]", "it reaches 0.8"),
+    ];
+    let folder = copied();
+    for (part, message) in cases {
+        fs::write(folder.path().join("rook.toml"), format!("{PEG}{part}")).unwrap();
+        let fault = fault(&folder);
+        assert!(fault.contains(&format!("the rook: {message}")), "{part} gives {fault}");
+    }
 }
 
 #[test]

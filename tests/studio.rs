@@ -132,3 +132,49 @@ fn shadows_are_softer_the_larger_the_softbox_is() {
     let [hard, soft, softer] = [1.0, 15.0, 40.0].map(edge);
     assert!(hard < soft && soft < softer, "{hard}, {soft}, {softer}");
 }
+
+#[test]
+fn lights_turn_with_the_cameras_side_where_they_are_told_to() {
+    use lightsquare::config::View;
+    let key = |view: View, turns: bool| {
+        let scene = scene(ENDING, |config| {
+            config.camera.view = view;
+            config.room.turns = turns;
+        });
+        scene.room.unwrap().softboxes[0].point((0.5, 0.5))
+    };
+    assert_eq!(key(View::White, false), key(View::Black, false));
+    let middle = lightsquare::scene::MIDDLE;
+    let [white, black] = [View::White, View::Black].map(|view| key(view, true) - middle);
+    assert!((white + black).with_y(0.0).length() < 1e-9, "{white} and {black}");
+}
+
+/// Dark edges before a white or transparent ground are refined as others are.
+#[test]
+fn adaptive_samples_see_the_edges_of_what_is_dark() {
+    let edges = |background: Option<DVec3>| {
+        let scene = scene("8/8/8/3k4/8/8/8/8", |config| {
+            config.theme = "print".to_owned();
+            config.parts.frame = Some("ink".to_owned());
+            config.parts.background = Some(background);
+        });
+        let picture = |mode| picture(&scene, mode).into_rgba8();
+        let exact = picture(Antialiasing::Grid(16));
+        let found = picture(Antialiasing::Adaptive { rays: 8, threshold: 0.02 });
+        // What is hardly there has hardly a colour.
+        let weighed = |pixel: &image::Rgba<u8>| {
+            let [red, green, blue, alpha] = pixel.0.map(f64::from);
+            [red * alpha / 255.0, green * alpha / 255.0, blue * alpha / 255.0, alpha]
+        };
+        let apart = |a: &image::Rgba<u8>, b: &image::Rgba<u8>| {
+            let pairs = weighed(a).into_iter().zip(weighed(b));
+            pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+        };
+        exact.pixels().zip(found.pixels()).filter(|(a, b)| apart(a, b) > 30.0).count()
+    };
+    for background in [Some(DVec3::ONE), None] {
+        // Of 5400; a hair that the first samples miss is missed.
+        let wrong = edges(background);
+        assert!(wrong < 20, "{background:?}: {wrong}");
+    }
+}

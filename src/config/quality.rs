@@ -38,3 +38,25 @@ impl Quality {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::{Config, Look};
+
+    #[test]
+    fn each_quality_has_more_rays_than_the_one_before() {
+        for look in [Look::Studio, Look::Thesis] {
+            let rays = [Quality::Draft, Quality::Normal, Quality::High, Quality::Print].map(|q| {
+                let mut render = Config::new(look).render;
+                q.apply(&mut render);
+                render.rays
+            });
+            assert!(rays.is_sorted_by(|a, b| a < b), "{look:?}: {rays:?}");
+            // What pictures have that ask for no quality.
+            let mut normal = Config::new(look).render;
+            Quality::Normal.apply(&mut normal);
+            assert_eq!(normal, Config::new(look).render);
+        }
+    }
+}

@@ -143,6 +143,11 @@ pub fn interpret(
             faults.push(Fault { line: section.line, message });
             continue;
         }
+        if name.contains('"') {
+            let message = format!("[{}] has a quote in its name, expected none", section.name);
+            faults.push(Fault { line: section.line, message });
+            continue;
+        }
         let config = &mut global.config;
         match name.as_str() {
             "globalsettings" => {
@@ -176,10 +181,6 @@ pub fn interpret(
             }
             "theme" | "material" => {
                 let message = format!("[{}] has no name, expected one behind it", section.name);
-                faults.push(Fault { line: section.line, message });
-            }
-            _ if name.contains('"') => {
-                let message = format!("[{}] has a quote in its name, expected none", section.name);
                 faults.push(Fault { line: section.line, message });
             }
             "material none" => {
@@ -400,7 +401,14 @@ mod tests {
             ),
             ("[Material m]\nGrain=x", "line 2: Grain is for a texture of wood"),
             ("[Board]\nLight=c\n[Material c]\nTexture=chequer", "line 2: Light `c` is a chequer"),
-            ("[Material light]\nTexture=chequer", "Light `light` is a chequer"),
+            (
+                "[GlobalSettings]\nTheme=thesis\n[Material light]\nTexture=chequer",
+                "Light `light` is a chequer",
+            ),
+            ("[Theme]", "line 1: [Theme] has no name, expected one behind it"),
+            ("[Theme \"a\"]", "line 1: [Theme \"a\"] has a quote in its name"),
+            ("[Camera]\nView=sied", "player, thesis, free (did you mean `side`?)"),
+            ("[Camera]\nAperture=x\nFocus=1,2,3", "line 2: Aperture is `x`, expected a number"),
             (
                 "[GlobalSettings]\nTheme=marbel",
                 "line 2: Theme: there is no theme `marbel`, did you mean `marble`?",
@@ -499,16 +507,23 @@ mod tests {
         let text = "[GlobalSettings]\nImageWidth=7\n[Light0]\nPosition=1,2.5,-3e2\nColor=1,0.1,0\n\
             [Camera]\nZRot=-0.1\n[Render]\nAntialiasing=2\nFilter=mip\n[Board]\nTable=Walnut\n\
             [Pieces]\nWhite=own\n[Clock]\nShow=yes\nWhite=1:02:03\n\
+            [Theme club]\n[Room]\nLightsTurn=no\n\
             [Model0]\nShape=plane\nOrigin=0,-9,0\nNormal=0,1,0\nMaterial=floor\n\
             [Model1]\nShape=box\nMin=0,0,0\nMax=1,1,1\nRotation=0,45,0\n\
             [Material own]\nTexture=marble\nOctaves=3\n[Material white]\nShininess=7\n\
             [Material floor]\nTexture=bitmap\nBitmap=docs/hero.png\nMapping=spherical\nU=0,0,2\n";
-        for config in [Config::default(), Config::parse(text).unwrap()] {
+        let looks = [Config::default(), Config::new(Look::Thesis)];
+        for config in [looks[0].clone(), looks[1].clone(), Config::parse(text).unwrap()] {
             let printed = config.to_ini();
-            let again = Config::parse(&printed).unwrap();
-            assert_eq!(again.to_ini(), printed);
-            assert_eq!(again.materials.len(), config.materials.len());
-            assert_eq!((again.lights, again.models), (config.lights, config.models));
+            for base in looks.clone() {
+                let again = base.with(&printed, Path::new("")).unwrap();
+                // Beside the settings a look has materials of its own, all printed, but not those that
+                // mean nothing to others.
+                assert_eq!(again.to_ini(), printed);
+                assert_eq!(again.scheme(), config.scheme());
+                let settings = |config: Config| Config { materials: [].into(), ..config };
+                assert_eq!(settings(again), settings(config.clone()));
+            }
         }
     }
 

@@ -21,7 +21,7 @@ const FEWEST: u32 = 4;
 const SAME: f64 = 0.15;
 
 /// One bright sample among dark ones counts no more than this: fine highlights do not flicker.
-const BRIGHTEST: f64 = 4.0;
+const BRIGHTEST: f64 = 2.0;
 
 /// Traces `scene` as [`super::render`] does, in the light of `room`. Of a grid the number of rays
 /// alone counts; adaptive, a pixel begins with a quarter of them (and stops there and then where the

@@ -69,7 +69,7 @@ const STUDIO: [(&str, &[&str]); 5] = [
     ("studio-marble", &["--theme", "marble", "--camera", "player", "--quality", "draft"]),
     ("studio-glass", &["--theme", "glass", "--camera", "side", "--quality", "draft"]),
     ("studio-tournament", &["--theme", "tournament", "--camera", "top", "--quality", "draft"]),
-    ("studio-print", &["--theme", "print", "--transparent", "--quality", "draft"]),
+    ("studio-print", &["--theme", "print", "--transparent", "--quality", "normal"]),
 ];
 
 /// Rounding may differ from machine to machine: so many steps of 255 may pixels be apart.

@@ -6,7 +6,7 @@ mod golden;
 use std::path::Path;
 
 use assert_cmd::Command;
-use image::{Rgb, RgbImage};
+use image::{DynamicImage, Rgb, RgbImage};
 
 /// The command, in a folder of its own.
 pub fn lightsquare(folder: &Path) -> Command {
@@ -15,9 +15,19 @@ pub fn lightsquare(folder: &Path) -> Command {
     command
 }
 
+/// A picture; what is transparent shows a ground of a colour that nothing else has.
 pub fn read(path: &Path) -> RgbImage {
     let picture = image::open(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-    picture.to_rgb8()
+    let DynamicImage::ImageRgba8(picture) = picture else {
+        return picture.to_rgb8();
+    };
+    RgbImage::from_fn(picture.width(), picture.height(), |x, y| {
+        let [red, green, blue, alpha] = picture.get_pixel(x, y).0.map(f64::from);
+        let over = |color: f64, ground: f64| {
+            (color * alpha / 255.0 + ground * (1.0 - alpha / 255.0)).round() as u8
+        };
+        Rgb([over(red, 255.0), over(green, 0.0), over(blue, 255.0)])
+    })
 }
 
 /// A picture without any symmetry: an F on coloured squares.
