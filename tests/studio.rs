@@ -175,6 +175,6 @@ fn adaptive_samples_see_the_edges_of_what_is_dark() {
     for background in [Some(DVec3::ONE), None] {
         // Of 5400; a hair that the first samples miss is missed.
         let wrong = edges(background);
-        assert!(wrong < 20, "{background:?}: {wrong}");
+        assert!(wrong < 30, "{background:?}: {wrong}");
     }
 }
