@@ -87,6 +87,7 @@ fn bad_thesis_lines_and_settings_get_a_sentence() {
         ),
         ("view.ini", "[Camera]\nView=top\nFOV=80\n"),
         ("camera.ini", "[Camera]\nLookAt=45,15,-30\n"),
+        ("focus.ini", "[Camera]\nAperture=1\nFocus=14,0,-1000\n"),
         ("window.ini", "[Model0]\nShape=plane\nOrigin=0,-9,0\nNormal=0,1,0\nMaterial=glass\n"),
         ("bitmap.ini", "[Material m]\nTexture=bitmap\nBitmap=broken.png\n[Pieces]\nWhite=m\n"),
         ("clock.ini", "[Clock]\nShow=yes\n"),
@@ -157,6 +158,11 @@ fn bad_thesis_lines_and_settings_get_a_sentence() {
             &["diagram", "--white", "KE1", "--width", "60in"],
             2,
             "--width: 60in at 300 pixels an inch makes 18000 x 13500 pixels, expected 1 to 16384",
+        ),
+        (
+            &["diagram", "--white", "KE1", "-c", "focus.ini"],
+            1,
+            "the camera's Focus is not before it, expected a point that it sees",
         ),
         (
             &["diagram", "--white", "KE1", "--theme", "wod"],

@@ -2,6 +2,7 @@
 
 mod picture;
 mod print;
+mod subject;
 mod thesis;
 mod values;
 
@@ -11,17 +12,15 @@ use anyhow::bail;
 use clap::{Args, ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 use lightsquare::config::{Config, Look, Shading};
 use lightsquare::game::{Moment, Selection};
-use lightsquare::job::{
-    BenchJob, DiagramJob, ExportJob, InspectJob, PictureSettings, RenderJob, Subject,
-};
-use lightsquare::notation::Placement;
+use lightsquare::job::{BenchJob, DiagramJob, ExportJob, InspectJob, PictureSettings, RenderJob};
 use lightsquare::output::PictureFormat;
 use lightsquare::timeline::Film;
 
 use crate::progress::{ProgressMode, Verbosity};
 use picture::PictureArgs;
 use print::PrintArgs;
-use values::{FenArg, degrees, fen, fps, game_number, runs, seconds, threads};
+use subject::SubjectArgs;
+use values::{degrees, fps, runs, seconds, threads};
 
 /// Reads chess games (PGN), replays them and ray-traces them into numbered pictures.
 #[derive(Parser)]
@@ -241,29 +240,6 @@ pub struct BenchArgs {
     pub json: bool,
 }
 
-/// Where a single position comes from.
-#[derive(Args)]
-struct SubjectArgs {
-    /// A file of games in PGN; - is the standard input
-    #[arg(value_name = "PGN", required_unless_present_any = ["fen", "white", "black", "print_config"])]
-    input: Option<PathBuf>,
-    /// The game's number in its file
-    #[arg(long, value_name = "GAME", default_value = "1", value_parser = game_number, conflicts_with_all = ["fen", "white", "black"])]
-    select: usize,
-    /// The position: after a move (17w, 17b), after so many half-moves, start or end
-    #[arg(long, value_name = "MOVE", default_value = "end", conflicts_with_all = ["fen", "white", "black"])]
-    at: Moment,
-    /// A position as FEN, or the board part of one; it need not be legal
-    #[arg(long, value_name = "FEN", value_parser = fen, conflicts_with_all = ["input", "white", "black"])]
-    fen: Option<FenArg>,
-    /// White's pieces in the thesis's letters K D V S J P, as in KE1PE2
-    #[arg(long, value_name = "PIECES", conflicts_with = "input")]
-    white: Option<String>,
-    /// Black's pieces, likewise
-    #[arg(long, value_name = "PIECES", conflicts_with = "input")]
-    black: Option<String>,
-}
-
 #[derive(Args)]
 pub struct InspectArgs {
     /// Files of games in PGN; - is the standard input
@@ -272,7 +248,7 @@ pub struct InspectArgs {
     /// Numbers of games in their file, as in 3, 5-9 or 1:3,10
     #[arg(long, value_name = "GAMES")]
     select: Option<Selection>,
-    /// A tab-separated row for every position: game, ply, san, fen, white, black
+    /// A tab-separated row for every position: game, ply, san, white, black
     #[arg(long)]
     positions: bool,
 }
@@ -353,22 +329,6 @@ impl ExportArgs {
 impl BenchArgs {
     pub fn to_job(&self) -> BenchJob {
         BenchJob { threads: self.cpu, runs: self.runs }
-    }
-}
-
-impl SubjectArgs {
-    fn into_subject(self) -> anyhow::Result<Subject> {
-        Ok(match (self.input, self.fen) {
-            (Some(file), _) => Subject::Game { file, number: self.select, at: self.at },
-            (None, Some(FenArg(placement, fen))) => Subject::Placement { placement, fen },
-            (None, None) => {
-                let [white, black] =
-                    [&self.white, &self.black].map(|text| text.as_deref().unwrap_or_default());
-                let placement = Placement::parse(white, black)
-                    .map_err(|error| UsageError(format!("--white or --black: {error}")))?;
-                Subject::Placement { fen: placement.board_fen(), placement }
-            }
-        })
     }
 }
 

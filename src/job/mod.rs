@@ -26,7 +26,7 @@ use std::path::{Path, PathBuf};
 use crate::assets::AssetError;
 use crate::game::{Game, Moment, Selection, SourceError, printable};
 use crate::output::OutputError;
-use crate::scene::MaterialError;
+use crate::scene::StageError;
 
 /// Why a job could not be done.
 #[derive(Debug, thiserror::Error)]
@@ -53,7 +53,7 @@ pub enum JobError {
     #[error(transparent)]
     Assets(#[from] AssetError),
     #[error(transparent)]
-    Material(#[from] MaterialError),
+    Stage(#[from] StageError),
     #[error("{threads} threads cannot be started")]
     Threads {
         threads: usize,

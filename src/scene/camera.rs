@@ -85,11 +85,11 @@ impl Camera {
         libm::atan2(-ahead.x, ahead.z).to_degrees()
     }
 
-    /// This camera with a lens of a `radius` in world units that shows `point` sharp; nothing changes
-    /// when it does not lie ahead.
-    pub fn focused(&self, radius: f64, point: DVec3) -> Camera {
+    /// This camera with a lens of a `radius` in world units that shows `point` sharp; `None` when that
+    /// does not lie ahead.
+    pub fn focused(&self, radius: f64, point: DVec3) -> Option<Camera> {
         let focus = (point - self.position).dot(self.forward);
-        if focus > 0.0 { Camera { lens: radius, focus, ..*self } } else { *self }
+        (focus > 0.0).then_some(Camera { lens: radius, focus, ..*self })
     }
 
     /// Whether it has a lens.
@@ -208,7 +208,7 @@ mod tests {
     #[test]
     fn rays_through_a_lens_meet_where_it_is_sharp() {
         let point = DVec3::new(14.0, 0.0, 14.0);
-        let camera = Camera::free(&Pose::default()).focused(2.0, point);
+        let camera = Camera::free(&Pose::default()).focused(2.0, point).unwrap();
         let pinhole = camera.ray(500.0, 300.0, 1000, 600);
         for pair in [(0.1, 0.2), (0.9, 0.5), (0.5, 0.8)] {
             let ray = camera.ray_through_lens(pinhole, || pair);

@@ -26,6 +26,15 @@ const MIN_WEIGHT: f64 = 1.0 / 1024.0;
 /// plane, and rounding would choose between them pixel by pixel.
 const FELT: f64 = 0.005;
 
+/// Why a stage cannot be set.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum StageError {
+    #[error(transparent)]
+    Material(#[from] MaterialError),
+    #[error("the camera's Focus is not before it, expected a point that it sees")]
+    FocusBehind,
+}
+
 /// What stays the same from frame to frame: the set, all that is no piece, lights, camera and
 /// background.
 pub struct Stage {
@@ -49,13 +58,14 @@ impl Stage {
     /// far as `reach`.
     ///
     /// # Errors
-    /// When `config` names a material that it does not have, or `assets` lack a picture. Neither
-    /// happens with settings that were read from a file.
-    pub fn new(config: &Config, assets: &Assets, reach: Reach) -> Result<Stage, MaterialError> {
+    /// When `config` names a material that it does not have, or `assets` lack a picture (neither
+    /// happens with settings that were read from a file); when the camera's focus lies behind it.
+    pub fn new(config: &Config, assets: &Assets, reach: Reach) -> Result<Stage, StageError> {
         let materials = Materials { config, bitmaps: &assets.bitmaps };
         let scheme = config.scheme();
         let set = assets.set.clone();
         let camera = view::camera(config, view::extent(&set), reach);
+        let camera = camera.ok_or(StageError::FocusBehind)?;
         let mut fixed = board(&scheme, &materials, Side::near(&camera))?;
         if config.clock.show {
             fixed.extend(clock::clock(&config.clock, &materials, clock::place(camera.axes()[2]))?);

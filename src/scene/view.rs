@@ -42,10 +42,12 @@ pub fn extent(set: &PieceSet) -> Bounds {
     men.iter().fold(Bounds::EMPTY, |all, man| all.union(man.bounds()))
 }
 
-/// The camera that `config` asks for, before any orbit, with pieces that fit into `man`.
-pub fn camera(config: &Config, man: Bounds, reach: Reach) -> Camera {
+/// The camera that `config` asks for, before any orbit, with pieces that fit into `man`; `None` when
+/// what its lens is to show sharp lies behind it.
+pub fn camera(config: &Config, man: Bounds, reach: Reach) -> Option<Camera> {
     let config::Camera { aperture, focus, .. } = config.camera;
-    pinhole(config, man, reach).focused(aperture / 2.0, focus)
+    let pinhole = pinhole(config, man, reach);
+    if aperture > 0.0 { pinhole.focused(aperture / 2.0, focus) } else { Some(pinhole) }
 }
 
 /// The same without its lens.
@@ -163,7 +165,7 @@ mod tests {
                     for (reach, clock, point) in points {
                         let mut config = config(view, orientation, size);
                         config.clock.show = clock;
-                        let camera = camera(&config, MAN, reach);
+                        let camera = pinhole(&config, MAN, reach);
                         let place = clock::place(camera.axes()[2]);
                         let point = if clock { place.transform_point3(point) } else { point };
                         let face = place.transform_vector3(DVec3::X);
@@ -181,8 +183,8 @@ mod tests {
     #[test]
     fn an_orbit_holds_the_board_all_the_way() {
         let config = config(View::White, Orientation::White, [150, 100]);
-        let at_rest = camera(&config, MAN, Reach::default());
-        let orbits = camera(&config, MAN, Reach { moves: false, orbit: 90.0 });
+        let at_rest = pinhole(&config, MAN, Reach::default());
+        let orbits = pinhole(&config, MAN, Reach { moves: false, orbit: 90.0 });
         let most = |camera: &Camera| {
             let corner = |turn: u32| {
                 let camera = camera.orbited(MIDDLE, f64::from(turn));
@@ -198,7 +200,7 @@ mod tests {
     fn blacks_orientation_is_half_a_turn() {
         for (name, view) in VIEWS {
             let [white, black] = [Orientation::White, Orientation::Black].map(|orientation| {
-                camera(&config(view, orientation, [150, 100]), MAN, Reach::default())
+                pinhole(&config(view, orientation, [150, 100]), MAN, Reach::default())
             });
             let turned = white.orbited(MIDDLE, 180.0);
             assert!(turned.position().distance(black.position()) < 1e-9, "{name}");
