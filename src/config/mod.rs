@@ -112,9 +112,11 @@ pub struct Render {
     pub sampling: Sampling,
     /// Rays along one side of a pixel, 1 to [`MAX_RAYS`], where it gets more than one.
     pub rays: u32,
-    /// How far neighbouring pixels may differ before adaptive sampling refines them, 0 to 1.
+    /// 0 to 1. In the studio: the error of a pixel, of white, that adaptive sampling accepts; in
+    /// Phong's pictures: how far neighbours may differ before it refines them.
     pub threshold: f64,
-    /// How often a ray may be reflected or refracted, 0 to 50; beyond it is black.
+    /// How often a ray may be reflected or refracted, 0 to 50; beyond it Phong's
+    /// pictures are black, and the studio sees its room.
     pub max_depth: u32,
     /// World units that a ray sees, 1 to [`FARTHEST`]; beyond it is the background.
     pub max_distance: f64,
@@ -144,7 +146,8 @@ pub enum Sampling {
     None,
     /// A grid in every pixel.
     Grid,
-    /// A grid in those pixels that differ from their neighbours.
+    /// As many in those pixels that need it: in Phong's pictures where neighbours differ, in the
+    /// studio until the error is small enough.
     Adaptive,
 }
 

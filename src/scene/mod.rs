@@ -86,7 +86,8 @@ pub struct Scene {
     /// The colour of a ray that meets nothing, as it is written to the picture; where there is none,
     /// the picture is transparent.
     pub background: Option<Rgb>,
-    /// How often a ray may be reflected or refracted; beyond it is black.
+    /// How often a ray may be reflected or refracted; beyond it Phong's sum is black, and
+    /// the studio sees its room.
     pub max_depth: u32,
     /// The least share of a pixel's colour, 0 to 1, that a ray is followed for.
     pub min_weight: f64,

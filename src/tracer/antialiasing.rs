@@ -9,12 +9,13 @@ pub enum Antialiasing {
     None,
     /// N × N, through the middles of as many equal parts (the thesis's mode 1); N from 1 up.
     Grid(u32),
-    /// One, and then the same N × N instead where it saw something else than one of the eight
-    /// pixels round it did (the thesis's mode 2).
+    /// At most N × N, where they are needed. In Phong's pictures one, and then all of them where it
+    /// saw something else than one of the eight pixels round it did (the thesis's mode 2); in the
+    /// studio so many that the error of their mean is small enough.
     Adaptive {
         rays: u32,
-        /// How far apart two pixels may be in the colour of what they saw and in the light on it,
-        /// 0 to 1; in its normal eight times as far.
+        /// 0 to 1. How far apart two pixels may be in the colour of what they saw and in the light
+        /// on it, in its normal eight times as far; or the error, of white.
         threshold: f32,
     },
 }
