@@ -37,15 +37,19 @@ impl Assets {
     /// # Errors
     /// A set or a picture that cannot be read.
     pub fn load(config: &Config, set: &SetName) -> Result<Assets, AssetError> {
-        let normals = match config.render.normals {
-            config::Normals::Flat => Normals::Flat,
-            config::Normals::Smooth => Normals::Smooth,
-        };
         let bitmaps = config
             .bitmaps()
             .into_iter()
             .map(|path| Ok((path.clone(), Arc::new(Bitmap::open(path, config.render.filter)?))))
             .collect::<Result<_, BitmapError>>()?;
-        Ok(Assets { set: piece_set(set, config.render.subdivisions, normals)?, bitmaps })
+        Ok(Assets { set: piece_set(set, config.render.subdivisions, normals(config))?, bitmaps })
+    }
+}
+
+/// How curves are to be shaded.
+pub fn normals(config: &Config) -> Normals {
+    match config.render.normals {
+        config::Normals::Flat => Normals::Flat,
+        config::Normals::Smooth => Normals::Smooth,
     }
 }

@@ -6,7 +6,8 @@ use glam::{DVec2, DVec3};
 
 use super::measures::{DEPTH, FRAME, HALF, MIDDLE, SQUARE};
 use super::{Joinery, Material, MaterialError, Materials, Object, Rgb, Side, Surface, Texture};
-use crate::config::{Edge, Scheme};
+use crate::assets::normals;
+use crate::config::{Config, Edge, Scheme};
 use crate::geometry::transform::{rotation_y, translation};
 use crate::geometry::{
     Bounds, ControlPoint, Csg, Cuboid, CurveError, Normals, Outline, Plane, Prism,
@@ -38,7 +39,7 @@ pub fn board(
     }
     let mut objects = match scheme.edge {
         Edge::Step => stepped(squares, frame),
-        Edge::Moulded => vec![moulded(squares, frame, inlay)],
+        Edge::Moulded => vec![moulded(squares, frame, inlay, materials.config)],
     };
     if let Some(table) = &scheme.table {
         let plane = Plane::new(DVec3::Y * -DEPTH, DVec3::Y);
@@ -80,20 +81,26 @@ fn block(half_width: f64, bottom: f64, top: f64) -> Cuboid {
 
 /// Squares and a frame of mouldings in one body: a bar with the moulding's section, crossed with
 /// itself.
-fn moulded([dark, light]: [Material; 2], frame: Material, inlay: Option<Material>) -> Object {
+fn moulded(
+    [dark, light]: [Material; 2],
+    frame: Material,
+    inlay: Option<Material>,
+    config: &Config,
+) -> Object {
     let has_inlay = inlay.is_some();
     let inlay = inlay.unwrap_or(frame.clone());
-    let body = match section() {
-        Ok(bar) => {
-            let bar = Csg::leaf(bar);
-            bar.clone().and(bar.placed(rotation_y(90.0))).placed(translation(MIDDLE))
-        }
-        // The section is a constant that makes a bar, as a test sees to.
-        Err(_) => Csg::leaf(block(HALF + FRAME, -DEPTH, 0.0)),
-    };
+    // The section is a constant that makes a bar, as a test sees to.
+    let bar = section(config.render.subdivisions, normals(config));
+    let bar = Csg::leaf(bar.expect("the moulding makes a bar"));
+    let other = bar.clone().placed(translation(DVec3::Y * APART) * rotation_y(90.0));
+    let body = bar.and(other).placed(translation(MIDDLE));
     let joinery = Joinery::new([dark, light, frame, inlay], has_inlay);
     Object::standing(body, Surface::Board(Arc::new(joinery)))
 }
+
+/// How much higher one of the bars lies: their tops must not be the same plane, where other renderers
+/// cannot choose between them.
+const APART: f64 = 1e-3;
 
 /// The moulding from the bottom of the board to its top: distance from the outer edge, height, and
 /// whether it is a corner.
@@ -108,13 +115,14 @@ const MOULDING: [(f64, f64, bool); 8] = [
     (0.66, 0.0, true),
 ];
 
-fn section() -> Result<Prism, CurveError> {
+fn section(subdivisions: u32, normals: Normals) -> Result<Prism, CurveError> {
     let half = HALF + FRAME;
     let right = MOULDING
         .map(|(inwards, y, corner)| ControlPoint { at: DVec2::new(half - inwards, y), corner });
     let left = right.map(|point| ControlPoint { at: point.at * DVec2::new(-1.0, 1.0), ..point });
     let outline = Outline::new(right.into_iter().chain(left.into_iter().rev()).collect())?;
-    Prism::new(&outline, 4, Normals::Smooth, -half, half)
+    // Its ends lie beyond the other bar's sides.
+    Prism::new(&outline, subdivisions, normals, -half - 1.0, half + 1.0)
 }
 
 #[cfg(test)]
@@ -123,6 +131,8 @@ mod tests {
 
     #[test]
     fn the_moulding_makes_a_bar() {
-        assert!(section().is_ok());
+        for subdivisions in 0..=7 {
+            assert!(section(subdivisions, Normals::Smooth).is_ok());
+        }
     }
 }

@@ -120,11 +120,12 @@ fn positions_look_as_povray_shows_them() {
         return;
     }
     let start = "rnbqkbnr/pppppppp/8/8/8/8/PPPPPPPP/RNBQKBNR";
-    let cases: [(&str, &[&str], &str); 9] = [
+    let cases: [(&str, &[&str], &str); 10] = [
         ("start", &["--fen", start], ""),
         ("opera, mate", &[OPERA, "--at", "17w"], ""),
         ("opera, long castling, from above", &[OPERA, "--at", "12w"], ABOVE),
         ("opera, in parallel projection", &[OPERA, "--at", "9w"], TOP),
+        ("a moulded board", &["--white", "KE1PE2", "--theme", "wood"], ""),
         ("clear pieces", &["--white", "DD1PE2", "--black", "SD3"], CLEAR),
         ("bitmaps", &["--white", "KD1"], MAPPED),
         ("a glass ball", &["--white", "PA1", "--black", "KE8"], GLASS_BALL),
