@@ -1,6 +1,9 @@
 //! The studio's pictures: many samples a pixel, and more where they disagree.
 
+use std::ops::Range;
+
 use image::DynamicImage;
+use rayon::prelude::*;
 
 use super::canvas::{Canvas, Pixel};
 use super::sequence::Sequence;
@@ -20,12 +23,19 @@ const FEWEST: u32 = 4;
 /// Samples that differ by no more than this part of the error that is small enough are the same.
 const SAME: f64 = 0.15;
 
+/// Pixels side by side whose brightness differs by more are looked at again: a hairline may have been
+/// missed in one of them.
+const CONTRAST: f64 = 0.08;
+
+/// How many rows a thread has in hand at a time: a bound for memory.
+const ROWS: usize = 32;
+
 /// One bright sample among dark ones counts no more than this: fine highlights do not flicker.
 const BRIGHTEST: f64 = 2.0;
 
 /// Traces `scene` as [`super::render`] does, in the light of `room`. Of a grid the number of rays
-/// alone counts; adaptive, a pixel begins with a quarter of them (and stops there and then where the
-/// first are all the same), and goes on while the error of its mean seems greater than the threshold.
+/// alone counts; adaptive, a pixel begins with a quarter of them (and stops before where the first
+/// are all the same), and goes on while the error of its mean seems greater than the threshold.
 pub fn render(
     scene: &Scene,
     room: &Room,
@@ -42,7 +52,9 @@ pub fn render(
             (1 << quarter.ilog2(), rays * rays, f64::from(threshold))
         }
     };
+    let few = if scene.camera.has_lens() { first } else { first / 4 };
     let exposure = Exposure {
+        few: few.max(FEWEST).min(most),
         studio: Studio::new(scene, room),
         scene,
         size: [width, height],
@@ -52,8 +64,7 @@ pub fn render(
         behind: scene.background.map(|color| shown(linear_light(color))),
     };
     let mut picture = Canvas::new(width, height, scene.background.is_none());
-    let rows = 0..height as usize;
-    let counts = picture.paint(rows, |x, y, counts| exposure.pixel(x as u32, y as u32, counts));
+    let counts = exposure.take(&mut picture);
     (picture.into_picture(), counts)
 }
 
@@ -61,7 +72,8 @@ struct Exposure<'a> {
     studio: Studio<'a>,
     scene: &'a Scene,
     size: [u32; 2],
-    /// Samples of a pixel at first, and at most.
+    /// Samples of a pixel to begin with, of one that is not as simple as it seems, and at most.
+    few: u32,
     first: u32,
     most: u32,
     /// The error of a pixel's mean that is small enough, of what can be shown; negative where none is.
@@ -71,7 +83,7 @@ struct Exposure<'a> {
 }
 
 /// The samples of a pixel so far.
-#[derive(Default)]
+#[derive(Clone, Copy, Default)]
 struct Sum {
     count: u32,
     light: Rgb,
@@ -89,26 +101,71 @@ fn shown(light: Rgb) -> f64 {
 }
 
 impl Exposure<'_> {
-    fn pixel(&self, x: u32, y: u32, counts: &mut RayCounts) -> Pixel {
-        let mut sum = Sum::default();
-        // A few show whether there is anything to see: if they are all the same, they are believed.
-        let has_lens = self.scene.camera.has_lens();
-        let few = if has_lens { self.first } else { self.first / 4 };
-        let mut wanted = few.max(FEWEST).min(self.most);
-        loop {
-            for index in sum.count..wanted {
-                sum.add(self.sample(x, y, index, counts), self.behind);
-            }
-            // What a lens blurs is made of few bright samples among many.
-            let small_enough = match (wanted < self.first, has_lens) {
+    /// Paints the picture band by band: first a few samples of each pixel, then more of those that need
+    /// them.
+    fn take(&self, picture: &mut Canvas) -> RayCounts {
+        let [width, height] = self.size.map(|side| side as usize);
+        let mut counts = RayCounts::default();
+        // The first samples of the rows from `first` on; at least those beside the band in hand.
+        let (mut first, mut rows) = (0, Vec::<Vec<Sum>>::new());
+        let band = ROWS * rayon::current_num_threads();
+        for start in (0..height).step_by(band) {
+            let end = (start + band).min(height);
+            rows.drain(..start.saturating_sub(1) - first);
+            first = start.saturating_sub(1);
+            let (more, rays) = self.first_samples(first + rows.len()..(end + 1).min(height));
+            rows.extend(more);
+            let refined = picture.paint(start..end, |x, y, counts| {
+                let mut sum = rows[y - first][x];
+                let differs = (y.max(1) - 1..(y + 2).min(height)).any(|row| {
+                    rows[row - first][x.max(1) - 1..(x + 2).min(width)]
+                        .iter()
+                        .any(|there| (there.shown() - sum.shown()).abs() > CONTRAST)
+                });
+                self.refine(&mut sum, x as u32, y as u32, differs, counts);
+                self.developed(&sum)
+            });
+            counts = counts + rays + refined;
+        }
+        counts
+    }
+
+    fn first_samples(&self, rows: Range<usize>) -> (Vec<Vec<Sum>>, RayCounts) {
+        let row = |y: usize| {
+            let mut counts = RayCounts::default();
+            let sums = (0..self.size[0]).map(|x| {
+                let mut sum = Sum::default();
+                self.add(&mut sum, self.few, x, y as u32, &mut counts);
+                sum
+            });
+            (sums.collect(), counts)
+        };
+        let (sums, counts): (Vec<_>, Vec<_>) = rows.into_par_iter().map(row).unzip();
+        (sums, counts.into_iter().fold(RayCounts::default(), std::ops::Add::add))
+    }
+
+    /// Adds samples until their error is small enough. If the first few are all the same, and about
+    /// those of the pixels beside, they are believed.
+    fn refine(&self, sum: &mut Sum, x: u32, y: u32, differs: bool, counts: &mut RayCounts) {
+        while sum.count < self.most {
+            let small_enough = match (sum.count < self.first, self.scene.camera.has_lens()) {
+                (true, _) if differs => -1.0,
                 (true, _) => SAME * self.error,
+                // What a lens blurs is made of few bright samples among many.
                 (false, true) => self.error / 2.0,
                 (false, false) => self.error,
             };
-            if wanted >= self.most || sum.error() <= small_enough {
-                return self.developed(&sum);
+            if sum.error() <= small_enough {
+                return;
             }
-            wanted = (2 * wanted).min(self.most);
+            self.add(sum, (2 * sum.count).min(self.most), x, y, counts);
+        }
+    }
+
+    /// Adds samples up to a number of them.
+    fn add(&self, sum: &mut Sum, wanted: u32, x: u32, y: u32, counts: &mut RayCounts) {
+        for index in sum.count..wanted {
+            sum.add(self.sample(x, y, index, counts), self.behind);
         }
     }
 
@@ -157,6 +214,11 @@ impl Sum {
         if behind.is_none() {
             self.covers += cover * cover;
         }
+    }
+
+    /// How bright the mean looks.
+    fn shown(&self) -> f64 {
+        self.shown / f64::from(self.count)
     }
 
     /// The standard error of how bright the mean looks, or of how much is covered of what is
