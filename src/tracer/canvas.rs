@@ -17,6 +17,9 @@ pub struct Pixel {
     pub cover: f64,
 }
 
+/// How many rows a thread has in hand at a time in two passes.
+const ROWS: usize = 32;
+
 /// Bytes for a picture with or without an alpha channel.
 pub struct Canvas {
     width: u32,
@@ -54,6 +57,37 @@ impl Canvas {
             .reduce(RayCounts::default, std::ops::Add::add)
     }
 
+    /// Paints the whole picture in two passes, band by band so that memory is bounded: first
+    /// `look(x, y, counts)` at each pixel, then what `pixel(x, y, looks, counts)` shows, which sees what
+    /// was found there and in the eight pixels round it.
+    pub fn paint_twice<T: Send + Sync>(
+        &mut self,
+        look: impl Fn(usize, usize, &mut RayCounts) -> T + Sync,
+        pixel: impl Fn(usize, usize, &Looks<T>, &mut RayCounts) -> Pixel + Sync,
+    ) -> RayCounts {
+        let (width, height) = (self.width as usize, self.height as usize);
+        let row = |y: usize| {
+            let mut counts = RayCounts::default();
+            let found = (0..width).map(|x| look(x, y, &mut counts)).collect();
+            (found, counts)
+        };
+        let mut counts = RayCounts::default();
+        let mut looks = Looks { first: 0, rows: Vec::new(), height };
+        let band = ROWS * rayon::current_num_threads();
+        for start in (0..height).step_by(band) {
+            let end = (start + band).min(height);
+            // At least the rows beside the band in hand.
+            looks.rows.drain(..start.saturating_sub(1) - looks.first);
+            looks.first = start.saturating_sub(1);
+            let wanted = looks.first + looks.rows.len()..(end + 1).min(height);
+            let (more, rays): (Vec<_>, Vec<_>) = wanted.into_par_iter().map(row).unzip();
+            looks.rows.extend(more);
+            let painted = self.paint(start..end, |x, y, counts| pixel(x, y, &looks, counts));
+            counts = rays.into_iter().fold(counts + painted, std::ops::Add::add);
+        }
+        counts
+    }
+
     /// The picture, with an alpha channel that is not multiplied into its colours.
     pub fn into_picture(self) -> DynamicImage {
         let Canvas { width, height, is_transparent, bytes } = self;
@@ -63,6 +97,28 @@ impl Canvas {
             RgbImage::from_raw(width, height, bytes).map(DynamicImage::ImageRgb8)
         };
         picture.unwrap_or_default()
+    }
+}
+
+/// What a first pass found, in the rows from `first` on.
+pub struct Looks<T> {
+    first: usize,
+    rows: Vec<Vec<T>>,
+    height: usize,
+}
+
+impl<T> Looks<T> {
+    /// What was found at a pixel.
+    pub fn at(&self, x: usize, y: usize) -> &T {
+        &self.rows[y - self.first][x]
+    }
+
+    /// What was found there and in the eight pixels round it.
+    pub fn round(&self, x: usize, y: usize) -> impl Iterator<Item = &T> {
+        (y.max(1) - 1..(y + 2).min(self.height)).flat_map(move |row| {
+            let row = &self.rows[row - self.first];
+            &row[x.max(1) - 1..(x + 2).min(row.len())]
+        })
     }
 }
 

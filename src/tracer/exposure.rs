@@ -1,9 +1,6 @@
 //! The studio's pictures: many samples a pixel, and more where they disagree.
 
-use std::ops::Range;
-
 use image::DynamicImage;
-use rayon::prelude::*;
 
 use super::canvas::{Canvas, Pixel};
 use super::sequence::Sequence;
@@ -26,9 +23,6 @@ const SAME: f64 = 0.15;
 /// Pixels side by side whose brightness differs by more are looked at again: a hairline may have been
 /// missed in one of them.
 const CONTRAST: f64 = 0.08;
-
-/// How many rows a thread has in hand at a time: a bound for memory.
-const ROWS: usize = 32;
 
 /// One bright sample among dark ones counts no more than this: fine highlights do not flicker.
 const BRIGHTEST: f64 = 2.0;
@@ -101,47 +95,20 @@ fn shown(light: Rgb) -> f64 {
 }
 
 impl Exposure<'_> {
-    /// Paints the picture band by band: first a few samples of each pixel, then more of those that need
-    /// them.
+    /// Paints the picture: first a few samples of each pixel, then more of those that need them.
     fn take(&self, picture: &mut Canvas) -> RayCounts {
-        let [width, height] = self.size.map(|side| side as usize);
-        let mut counts = RayCounts::default();
-        // The first samples of the rows from `first` on; at least those beside the band in hand.
-        let (mut first, mut rows) = (0, Vec::<Vec<Sum>>::new());
-        let band = ROWS * rayon::current_num_threads();
-        for start in (0..height).step_by(band) {
-            let end = (start + band).min(height);
-            rows.drain(..start.saturating_sub(1) - first);
-            first = start.saturating_sub(1);
-            let (more, rays) = self.first_samples(first + rows.len()..(end + 1).min(height));
-            rows.extend(more);
-            let refined = picture.paint(start..end, |x, y, counts| {
-                let mut sum = rows[y - first][x];
-                let differs = (y.max(1) - 1..(y + 2).min(height)).any(|row| {
-                    rows[row - first][x.max(1) - 1..(x + 2).min(width)]
-                        .iter()
-                        .any(|there| (there.shown() - sum.shown()).abs() > CONTRAST)
-                });
-                self.refine(&mut sum, x as u32, y as u32, differs, counts);
-                self.developed(&sum)
-            });
-            counts = counts + rays + refined;
-        }
-        counts
-    }
-
-    fn first_samples(&self, rows: Range<usize>) -> (Vec<Vec<Sum>>, RayCounts) {
-        let row = |y: usize| {
-            let mut counts = RayCounts::default();
-            let sums = (0..self.size[0]).map(|x| {
-                let mut sum = Sum::default();
-                self.add(&mut sum, self.few, x, y as u32, &mut counts);
-                sum
-            });
-            (sums.collect(), counts)
+        let look = |x: usize, y: usize, counts: &mut RayCounts| {
+            let mut sum = Sum::default();
+            self.add(&mut sum, self.few, x as u32, y as u32, counts);
+            sum
         };
-        let (sums, counts): (Vec<_>, Vec<_>) = rows.into_par_iter().map(row).unzip();
-        (sums, counts.into_iter().fold(RayCounts::default(), std::ops::Add::add))
+        picture.paint_twice(look, |x, y, looks, counts| {
+            let mut sum = *looks.at(x, y);
+            let shown = sum.shown();
+            let differs = looks.round(x, y).any(|there| (there.shown() - shown).abs() > CONTRAST);
+            self.refine(&mut sum, x as u32, y as u32, differs, counts);
+            self.developed(&sum)
+        })
     }
 
     /// Adds samples until their error is small enough. If the first few are all the same, and about

@@ -1,9 +1,6 @@
 //! Phong's pictures: one ray a pixel, a grid, or a grid where neighbours differ.
 
-use std::ops::Range;
-
 use image::DynamicImage;
-use rayon::prelude::*;
 
 use super::canvas::{Canvas, Pixel};
 use super::phong::{Phong, Sample};
@@ -35,50 +32,21 @@ struct Easel<'a> {
     height: u32,
 }
 
-/// How many rows a thread has in hand at a time in adaptive antialiasing: a bound for its memory.
-const ROWS: usize = 32;
-
 impl Easel<'_> {
     fn grid(&self, picture: &mut Canvas, side: u32) -> RayCounts {
         picture.paint(0..self.height as usize, |x, y, counts| self.mean(x, y, side, counts))
     }
 
     fn adaptive(&self, picture: &mut Canvas, side: u32, threshold: f32) -> RayCounts {
-        let (width, height) = (self.width as usize, self.height as usize);
-        let mut counts = RayCounts::default();
-        // The first pass over the rows from `first` on; at least those beside the band in hand.
-        let (mut first, mut rows) = (0, Vec::<Vec<Sample>>::new());
-        let band = ROWS * rayon::current_num_threads();
-        for start in (0..height).step_by(band) {
-            let end = (start + band).min(height);
-            rows.drain(..start.saturating_sub(1) - first);
-            first = start.saturating_sub(1);
-            let (more, rays) = self.first_pass(first + rows.len()..(end + 1).min(height));
-            rows.extend(more);
-            let refined = picture.paint(start..end, |x, y, counts| {
-                let here = rows[y - first][x];
-                let differs = (y.max(1) - 1..(y + 2).min(height)).any(|row| {
-                    rows[row - first][x.max(1) - 1..(x + 2).min(width)]
-                        .iter()
-                        .any(|there| there.footprint.differs(&here.footprint, threshold))
-                });
-                if differs { self.mean(x, y, side, counts) } else { self.pixel(&here) }
-            });
-            counts = counts + rays + refined;
-        }
-        counts
-    }
-
-    /// One ray through the middle of each pixel of some rows.
-    fn first_pass(&self, rows: Range<usize>) -> (Vec<Vec<Sample>>, RayCounts) {
-        let row = |y: usize| {
-            let mut counts = RayCounts::default();
-            let samples = (0..self.width as usize)
-                .map(|x| self.sample(x as f64 + 0.5, y as f64 + 0.5, 1, &mut counts));
-            (samples.collect(), counts)
+        let look = |x: usize, y: usize, counts: &mut RayCounts| {
+            self.sample(x as f64 + 0.5, y as f64 + 0.5, 1, counts)
         };
-        let (samples, counts): (Vec<_>, Vec<_>) = rows.into_par_iter().map(row).unzip();
-        (samples, counts.into_iter().fold(RayCounts::default(), std::ops::Add::add))
+        picture.paint_twice(look, |x, y, looks, counts| {
+            let here = looks.at(x, y);
+            let differs =
+                looks.round(x, y).any(|there| there.footprint.differs(&here.footprint, threshold));
+            if differs { self.mean(x, y, side, counts) } else { self.pixel(here) }
+        })
     }
 
     fn mean(&self, x: usize, y: usize, side: u32, counts: &mut RayCounts) -> Pixel {
