@@ -107,7 +107,7 @@ impl Texture {
         }
     }
 
-    /// The mean colour over a large body; of a picture that of its middle.
+    /// The mean colour over a large body; of a picture without MIP levels that of its middle.
     pub fn mean(&self) -> Rgb {
         match self {
             Texture::Plain(color) => *color,
@@ -116,8 +116,10 @@ impl Texture {
             Texture::Timber { colors, .. } => colors[0].lerp(colors[1], timber::MEAN),
             Texture::Marble { colors, .. } => colors[0].lerp(colors[1], MARBLE_MEAN),
             Texture::Lettered { ground, .. } => ground.mean(),
-            Texture::Bitmap { bitmap, .. } => {
-                bitmap.color(DVec2::splat(0.5), Filter::Nearest, Beyond::Stays, 0.0)
+            Texture::Bitmap { bitmap, filter, linear, .. } => {
+                let whole = bitmap.size().max_element();
+                let color = bitmap.color(DVec2::splat(0.5), *filter, Beyond::Stays, whole);
+                if *linear { linear_light(color) } else { color }
             }
         }
     }
@@ -189,6 +191,26 @@ mod tests {
             let walked = walk(&texture);
             assert!((walked - mean.x).abs() < 0.01, "{walked} is not {}", mean.x);
         }
+    }
+
+    /// Half black and half white, as linear light: the mean of what is written.
+    #[test]
+    fn the_mean_of_a_picture_is_that_of_all_of_it() {
+        let picture =
+            image::RgbImage::from_fn(8, 8, |x, _| image::Rgb([if x < 4 { 0 } else { 255 }; 3]));
+        let texture = |linear| Texture::Bitmap {
+            bitmap: Arc::new(Bitmap::new(picture.clone(), Filter::Mip)),
+            mapping: Mapping {
+                kind: config::Mapping::Planar,
+                origin: DVec3::ZERO,
+                u: DVec3::X,
+                v: DVec3::Y,
+            },
+            filter: Filter::Mip,
+            linear,
+        };
+        assert!((texture(false).mean().x - 0.5).abs() < 0.01);
+        assert!((texture(true).mean().x - 0.214).abs() < 0.01);
     }
 
     #[test]
