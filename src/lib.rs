@@ -15,7 +15,7 @@
 //! | --- | --- | --- |
 //! | [`notation`] | [`notation::Placement`]: pieces and squares of both players, in the thesis's letters | – |
 //! | [`game`] | reading PGN into games; selection | notation |
-//! | [`timeline`] | frames: at time *t* a placement, the movers between squares, each piece's identity | game, notation |
+//! | [`timeline`] | frames: at time *t* a placement, the movers between squares, each piece's identity | game, notation, config |
 //! | [`config`] | `config.ini`, typed and range-checked | – |
 //! | [`assets`] | piece sets from TOML (`docs/piece-sets.md`), bitmaps | config, geometry |
 //! | [`geometry`] | rays, spans, bounds, transforms, curves, and one file a shape | – |
@@ -28,8 +28,9 @@
 //! The binary (`main`, `cli`, `progress`, `signals`) turns arguments into a typed job, shows how far it is,
 //! and sets the exit code; it alone prints. A test holds the imports against this table.
 //!
-//! Where this differs from the first design: a camera's turn is part of the frame, as an angle about
-//! the board's middle, so that the timeline needs no geometry. `export` reads what scenes are made
+//! Where this differs from the first design: the camera's turn and lean are part of the frame, as an
+//! angle and a point about the board's middle, so that the timeline needs no geometry; its pose on a
+//! path is the settings' own type. `export` reads what scenes are made
 //! of, and so uses `assets` (bitmaps) and `config` (kinds of mapping and filter) too. Where it differs
 //! from the thesis: light loses a share at each surface of glass, where the thesis has full shadows;
 //! total internal reflection throws all back, whatever the material's shares; colours are cut to what

@@ -205,6 +205,6 @@ fn no_piece_jumps_or_vanishes_but_a_captured_one() {
 fn the_camera_turns_evenly_over_the_whole() {
     let game = game("1. e4 e5 2. Nf3 *");
     let timeline = Timeline::new(&game, 0, 3, None, 90.0);
-    let turns: Vec<f64> = (0..4).map(|index| timeline.frame(index).orbit).collect();
+    let turns: Vec<f64> = (0..4).map(|index| timeline.frame(index).gaze.orbit).collect();
     assert_eq!(turns, [0.0, 30.0, 60.0, 90.0]);
 }

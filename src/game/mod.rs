@@ -7,6 +7,7 @@
 
 mod bytes;
 mod movetext;
+mod notes;
 mod replay;
 mod scan;
 mod select;
@@ -14,6 +15,7 @@ mod source;
 mod start;
 mod word;
 
+pub use notes::{Eval, Notes};
 pub use scan::{ScannedGame, Scanner};
 pub use select::{Absent, Moment, ParseMomentError, ParseSelectionError, Selection};
 pub use source::{Source, SourceError};
@@ -39,7 +41,11 @@ pub struct Game {
     /// `start` is empty.
     pub start_is_known: bool,
     pub start: Setup,
+    /// What comments say before the first move.
+    pub start_notes: Notes,
     pub plies: Vec<Ply>,
+    /// Lines that were not played, in the order of the file.
+    pub variations: Vec<Variation>,
     /// The result as the movetext gives it, or the tag, or `*`.
     pub result: String,
     /// What could not be read, in the order of the file.
@@ -53,6 +59,21 @@ pub struct Ply {
     pub san: String,
     pub played: Move,
     pub after: Chess,
+    /// What comments and glyphs say of it.
+    pub notes: Notes,
+}
+
+/// Moves that might have been played instead.
+#[derive(Clone, Debug)]
+pub struct Variation {
+    /// Half-moves from the game's start to the position where it begins: it replaces move
+    /// `plies[ply]` of the line that it belongs to.
+    pub ply: usize,
+    pub plies: Vec<Ply>,
+    /// Variations of this one, with their `ply` counted from the game's start too.
+    pub variations: Vec<Variation>,
+    /// What could not be read in it; the game itself is none the worse for it.
+    pub problems: Vec<Problem>,
 }
 
 /// Something in the text that could not be used.
@@ -91,7 +112,9 @@ impl Game {
             unread_tags: Vec::new(),
             start_is_known: false,
             start: Setup::empty(),
+            start_notes: Notes::default(),
             plies: Vec::new(),
+            variations: Vec::new(),
             result: "*".to_owned(),
             problems: problems
                 .into_iter()
@@ -121,6 +144,13 @@ impl Game {
             None => Placement::from(&self.start.board),
             Some(index) => Placement::from(self.plies[index].after.board()),
         }
+    }
+
+    /// What comments and glyphs say of the position after `ply` half-moves.
+    pub fn notes(&self, ply: usize) -> &Notes {
+        ply.checked_sub(1)
+            .and_then(|index| self.plies.get(index))
+            .map_or(&self.start_notes, |ply| &ply.notes)
     }
 
     /// The position after `ply` half-moves as a FEN, with an en passant square only where the

@@ -6,7 +6,7 @@ use shakmaty::{Chess, Color, Move, Position, Setup};
 use super::movetext::{self, Reading, Written, tolerant};
 use super::scan::Token;
 use super::word::ascii_dashes;
-use super::{Game, Ply, Problem, ScannedGame, start, tag};
+use super::{Game, Notes, Ply, Problem, ScannedGame, start, tag};
 
 /// Replays `scanned`, the game of that number in its file.
 pub fn replay(scanned: ScannedGame, number: usize) -> Game {
@@ -49,7 +49,9 @@ pub fn replay(scanned: ScannedGame, number: usize) -> Game {
         unread_tags: scanned.unread_tags,
         start_is_known: start.is_some(),
         start: start.unwrap_or_else(Setup::empty),
+        start_notes: Notes::default(),
         plies,
+        variations: Vec::new(),
         result,
         problems,
     }
@@ -99,7 +101,12 @@ fn play(
             Err(what) => return stop(what),
         };
         let san = SanPlus::from_move_and_play_unchecked(&mut position, played);
-        plies.push(Ply { san: san.to_string(), played, after: position.clone() });
+        plies.push(Ply {
+            san: san.to_string(),
+            played,
+            after: position.clone(),
+            notes: Notes::default(),
+        });
     }
     let last = tokens.last().filter(|_| !reading.is_certain)?;
     let what = "is followed by something that may be a move";

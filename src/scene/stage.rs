@@ -101,7 +101,7 @@ impl Stage {
         Scene {
             objects: self.fixed.iter().cloned().chain(standing).chain(moving).collect(),
             lights: self.lights.clone(),
-            camera: self.camera.orbited(MIDDLE, frame.orbit),
+            camera: self.camera.orbited(MIDDLE, frame.gaze.orbit),
             background: self.background,
             room: self.room.clone(),
             max_depth: self.max_depth,

@@ -5,9 +5,11 @@
 
 mod motion;
 mod pieces;
+mod shown;
 
 pub use motion::{BESIDE, CARRIED};
 pub use pieces::{Identities, Mover, Spot};
+pub use shown::{Card, Dials, Gaze, Marks};
 
 use crate::game::Game;
 use crate::notation::Placement;
@@ -63,9 +65,14 @@ pub struct Frame {
     pub identities: Identities,
     /// Pieces that stand nowhere: on their way, or leaving the board.
     pub movers: Vec<Mover>,
-    /// How far the camera has turned about the board, in degrees; positive is anticlockwise as
-    /// seen from above.
-    pub orbit: f64,
+    /// Captured pieces that stand beside the board, in the order of their capture.
+    pub taken: Vec<Mover>,
+    pub marks: Marks,
+    /// Nothing where there is no clock to be shown.
+    pub dials: Option<Dials>,
+    pub gaze: Gaze,
+    /// Words before or behind the game, over a picture of it.
+    pub card: Option<Card>,
 }
 
 impl Frame {
@@ -77,7 +84,11 @@ impl Frame {
             placement,
             identities: Identities::default(),
             movers: Vec::new(),
-            orbit: 0.0,
+            taken: Vec::new(),
+            marks: Marks::default(),
+            dials: None,
+            gaze: Gaze::default(),
+            card: None,
         }
     }
 
@@ -141,7 +152,7 @@ impl Timeline {
             Some(film) => self.at_time(film, index as f64 / film.fps),
         };
         let steps = self.frames().saturating_sub(1).max(1);
-        frame.orbit = self.orbit * index as f64 / steps as f64;
+        frame.gaze.orbit = self.orbit * index as f64 / steps as f64;
         frame
     }
 
@@ -150,10 +161,8 @@ impl Timeline {
         Frame {
             time,
             ply: self.first_ply + moves,
-            placement: position.placement,
             identities: position.identities,
-            movers: Vec::new(),
-            orbit: 0.0,
+            ..Frame::still(position.placement)
         }
     }
 

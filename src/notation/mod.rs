@@ -14,6 +14,10 @@
 //! # Ok::<(), lightsquare::notation::NotationError>(())
 //! ```
 
+mod marks;
+
+pub use marks::{Arrow, Brush, Circle, ParseMarkError};
+
 use shakmaty::fen::Fen;
 pub use shakmaty::{Board, Color, File, Piece, Rank, Role, Square};
 

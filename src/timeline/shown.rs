@@ -1,0 +1,47 @@
+//! What a frame shows beside the pieces: marks on the board, the clock, the camera's way.
+
+use crate::config::Pose;
+use crate::notation::{Arrow, Circle, Color, Square};
+
+/// What the board tells.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Marks {
+    /// The squares that the last move left and reached (castling: the king's), in this order; while
+    /// a move is under way, its own.
+    pub last_move: Vec<Square>,
+    /// The square of a king in check, or mated.
+    pub check: Option<Square>,
+    /// Whether that check is mate.
+    pub is_mate: bool,
+    pub circles: Vec<Circle>,
+    pub arrows: Vec<Arrow>,
+}
+
+/// What a chess clock shows.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Dials {
+    /// Whole seconds left to White and to Black, where they are known.
+    Times { left: [Option<u32>; 2], running: Option<Color> },
+    /// Of a game without times: the number of the move, as in `17w` or `start`.
+    Moment(String),
+}
+
+/// How far the camera is from where it stands at the film's beginning.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Gaze {
+    /// How far it has turned about the board, in degrees; positive is anticlockwise as seen from
+    /// above.
+    pub orbit: f64,
+    /// The point that it leans towards, in squares from the board's middle to the right and away
+    /// from White; (0, 0) for a camera that does not lean.
+    pub lean: [f64; 2],
+    /// Where it stands on its path, which is over all other cameras.
+    pub pose: Option<Pose>,
+}
+
+/// A picture of words before or behind the game.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Card {
+    Title,
+    Result,
+}
