@@ -1,5 +1,6 @@
 //! The command line: from arguments to typed jobs.
 
+mod film;
 mod picture;
 mod print;
 mod subject;
@@ -14,13 +15,13 @@ use lightsquare::config::{Config, Look, Shading};
 use lightsquare::game::{Moment, Selection};
 use lightsquare::job::{BenchJob, DiagramJob, ExportJob, InspectJob, PictureSettings, RenderJob};
 use lightsquare::output::PictureFormat;
-use lightsquare::timeline::Film;
 
 use crate::progress::{ProgressMode, Verbosity};
+use film::FilmArgs;
 use picture::PictureArgs;
 use print::PrintArgs;
 use subject::SubjectArgs;
-use values::{degrees, fps, runs, seconds, threads};
+use values::{runs, threads};
 
 /// Reads chess games (PGN), replays them and ray-traces them into numbered pictures.
 #[derive(Parser)]
@@ -169,27 +170,8 @@ pub struct RenderArgs {
     /// Last position, likewise, or end
     #[arg(long, value_name = "MOVE", default_value = "end")]
     to: Moment,
-    /// Make the frames of a film, with the moves between the positions
-    #[arg(long)]
-    animate: bool,
-    /// Frames a second, from 1 to 240
-    #[arg(long, value_name = "N", default_value = "25", value_parser = fps, allow_negative_numbers = true, requires = "animate")]
-    fps: f64,
-    /// Seconds that a move takes
-    #[arg(long, value_name = "S", default_value = "0.6", value_parser = seconds, allow_negative_numbers = true, requires = "animate")]
-    transition: f64,
-    /// Seconds that a position stands
-    #[arg(long, value_name = "S", default_value = "0.8", value_parser = seconds, allow_negative_numbers = true, requires = "animate")]
-    pause: f64,
-    /// Seconds that the first position stands
-    #[arg(long, value_name = "S", default_value = "1", value_parser = seconds, allow_negative_numbers = true, requires = "animate")]
-    first: f64,
-    /// Seconds that the last position stands
-    #[arg(long, value_name = "S", default_value = "5", value_parser = seconds, allow_negative_numbers = true, requires = "animate")]
-    last: f64,
-    /// Turn the camera about the board by so many degrees over each game
-    #[arg(long, value_name = "DEG", default_value = "0", value_parser = degrees, allow_negative_numbers = true)]
-    orbit: f64,
+    #[command(flatten)]
+    film: FilmArgs,
     #[command(flatten)]
     picture: PictureArgs,
 }
@@ -268,21 +250,14 @@ impl RenderArgs {
         if self.out == Path::new("-") {
             bail!(UsageError("--out: expected a folder, found `-`".to_owned()));
         }
-        let film = Film {
-            fps: self.fps,
-            transition: self.transition,
-            pause: self.pause,
-            first: self.first,
-            last: self.last,
-        };
         Ok(RenderJob {
             inputs: self.inputs,
             out: self.out,
             selection: self.select,
             from: self.from,
             to: self.to,
-            film: self.animate.then_some(film),
-            orbit: self.orbit,
+            showing: self.film.showing(),
+            frames: self.film.frames,
             picture: self.picture.settings(Look::default())?,
         })
     }

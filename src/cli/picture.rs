@@ -8,7 +8,8 @@ use anyhow::{Context, bail};
 use clap::{Args, ValueEnum};
 use lightsquare::assets::SetName;
 use lightsquare::config::{
-    Config, Look, ORIENTATIONS, Orientation, Quality, Sampling, VIEWS, View, unknown,
+    CAPTURED, Captured, Config, Look, ORIENTATIONS, Orientation, Quality, Sampling, VIEWS, View,
+    unknown,
 };
 use lightsquare::job::PictureSettings;
 
@@ -49,12 +50,20 @@ pub struct PictureArgs {
     /// a [Theme ...] of the settings [default: wood; thesis in the thesis's look]
     #[arg(long, value_name = "NAME")]
     theme: Option<String>,
-    /// The camera; `free` is where the settings put it [default: that of the look]
+    /// The camera; `mover` goes to the player who is to move, `follow` leans towards the moving piece,
+    /// `free` and `path` are where the settings put it [default: that of the look]
     #[arg(long, value_name = "NAME", value_parser = one_of(&VIEWS), ignore_case = true)]
     camera: Option<View>,
     /// From whose side of the board the camera looks; black turns it by half a turn
     #[arg(long, value_name = "COLOR", value_parser = one_of(&ORIENTATIONS), ignore_case = true)]
     orientation: Option<Orientation>,
+    /// From Black's side: --orientation black
+    #[arg(long, conflicts_with = "orientation")]
+    flip: bool,
+    /// Where captured pieces stay: beside the board, gone, or beside it in films alone
+    /// [default: films]
+    #[arg(long, value_name = "WHERE", value_parser = one_of(&CAPTURED), ignore_case = true)]
+    captured: Option<Captured>,
     /// Name files and ranks on the board's frame
     #[arg(long)]
     coordinates: bool,
@@ -136,6 +145,15 @@ impl PictureArgs {
         }
         config.camera.view = self.camera.unwrap_or(config.camera.view);
         config.camera.orientation = self.orientation.unwrap_or(config.camera.orientation);
+        if self.flip {
+            config.camera.orientation = Orientation::Black;
+        }
+        if config.camera.view == View::Path && config.camera.path.is_empty() {
+            let message =
+                "--camera: `path` needs a section [CameraPath] in the settings, and there is none";
+            bail!(UsageError(message.to_owned()));
+        }
+        config.captured = self.captured.unwrap_or(config.captured);
         config.render.rays = self.ssrays.unwrap_or(config.render.rays);
         if self.coordinates {
             config.parts.coordinates = Some(true);

@@ -1,8 +1,11 @@
 //! Values of flags that are checked as they are read.
 
+use std::ops::RangeInclusive;
+
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use lightsquare::config::{MAX_RAYS, MAX_SIDE};
 use lightsquare::notation::Placement;
+use lightsquare::timeline::Pause;
 
 /// A placement with the FEN that it was read from.
 #[derive(Clone)]
@@ -61,6 +64,23 @@ pub fn fps(text: &str) -> Result<f64, String> {
 
 pub fn seconds(text: &str) -> Result<f64, String> {
     number(text, 0.0, 3600.0)
+}
+
+pub fn pause(text: &str) -> Result<Pause, String> {
+    if text.eq_ignore_ascii_case("real") {
+        return Ok(Pause::Real);
+    }
+    seconds(text).map(Pause::Even).map_err(|expected| format!("{expected}, or real"))
+}
+
+/// A frame, or the first and the last of a few, counted from 0.
+pub fn frames(text: &str) -> Result<RangeInclusive<usize>, String> {
+    let expected = "expected a frame's number from 0 on, or two with a hyphen, the lower one first, as in \
+                    100-250";
+    let number = |text: &str| text.trim().parse::<usize>().ok();
+    let (first, last) = text.split_once(['-', ':']).unwrap_or((text, text));
+    let range = number(first).zip(number(last)).filter(|(first, last)| first <= last);
+    range.map(|(first, last)| first..=last).ok_or_else(|| expected.to_owned())
 }
 
 pub fn degrees(text: &str) -> Result<f64, String> {

@@ -3,13 +3,13 @@
 use glam::DVec3;
 use serde::Serialize;
 
-use super::Fault;
 use super::ini::Section;
 use super::keys::{Key, key, read_section};
 use super::values::{Choice, Number, PLACE};
+use super::{Fault, KeyFrame};
 
 /// Where the camera stands.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Camera {
     pub view: View,
     pub orientation: Orientation,
@@ -21,9 +21,13 @@ pub struct Camera {
     /// What counts where the view is [`View::Free`].
     #[serde(flatten)]
     pub pose: Pose,
+    /// What counts where the view is [`View::Path`], in the order of time; then it is not empty.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub path: Vec<KeyFrame>,
 }
 
-/// The camera by name. All but the last two show the whole board, whatever the picture's shape.
+/// The camera by name. All but `Follow` and the last three show the whole board, whatever the picture's
+/// shape.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum View {
@@ -37,21 +41,30 @@ pub enum View {
     Side,
     /// As White sees the board.
     Player,
+    /// As `White`, from the side of the player who is to move.
+    Mover,
+    /// Nearer than `White`, leaning towards the piece that moves.
+    Follow,
     /// The thesis's, [`Pose::default`].
     Thesis,
     /// As [`Camera::pose`] says.
     Free,
+    /// As [`Camera::path`] says.
+    Path,
 }
 
 /// Views, by name.
-pub const VIEWS: [(&str, View); 7] = [
+pub const VIEWS: [(&str, View); 10] = [
     ("white", View::White),
     ("black", View::Black),
     ("top", View::Top),
     ("side", View::Side),
     ("player", View::Player),
+    ("mover", View::Mover),
+    ("follow", View::Follow),
     ("thesis", View::Thesis),
     ("free", View::Free),
+    ("path", View::Path),
 ];
 
 /// From whose side of the board.
@@ -101,12 +114,16 @@ pub const KEYS: [Key<Camera>; 8] = [
     key!("Focus", Camera, focus: PLACE).only("a camera with an Aperture", |c| c.aperture > 0.0),
     key!("Position", Camera, pose.position: PLACE).only(FREE, is_free),
     key!("LookAt", Camera, pose.look_at: PLACE).only(FREE, is_free),
-    key!("FOV", Camera, pose.fov: Number(1.0, 340.0)).only(FREE, is_free),
-    key!("ZRot", Camera, pose.z_rot: Number(-360.0, 360.0)).only(FREE, is_free),
+    key!("FOV", Camera, pose.fov: FOV).only(FREE, is_free),
+    key!("ZRot", Camera, pose.z_rot: ROLL).only(FREE, is_free),
 ];
 
 /// The keys of a pose.
 const POSE: [&str; 4] = ["Position", "LookAt", "FOV", "ZRot"];
+
+/// Degrees of a field of view, twice the true angle, and of a roll.
+pub const FOV: Number = Number(1.0, 340.0);
+pub const ROLL: Number = Number(-360.0, 360.0);
 
 const FREE: &str = "a camera with View=free";
 
@@ -115,8 +132,8 @@ fn is_free(camera: &Camera) -> bool {
 }
 
 /// Reads the section over what `camera` is without it. One that gives a pose and no view, as the
-/// thesis's files do, means a free camera.
-pub fn read(section: &Section, camera: &mut Camera, faults: &mut Vec<Fault>) {
+/// thesis's files do, means a free camera. Gives whether it names a view.
+pub fn read(section: &Section, camera: &mut Camera, faults: &mut Vec<Fault>) -> bool {
     let gives =
         |name: &str| section.entries.iter().any(|entry| entry.key.eq_ignore_ascii_case(name));
     if !gives("View") && POSE.iter().any(|name| gives(name)) {
@@ -129,4 +146,5 @@ pub fn read(section: &Section, camera: &mut Camera, faults: &mut Vec<Fault>) {
             message: "the camera's LookAt is its own Position, expected another point".to_owned(),
         });
     }
+    gives("View")
 }

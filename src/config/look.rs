@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use super::{
-    Camera, Clock, Config, FARTHEST, Filter, Knights, Light, Normals, Orientation, Parts, Pose,
-    Render, Room, Sampling, Shading, View, shelf, theme,
+    Camera, Captured, Clock, Config, FARTHEST, Filter, Knights, Light, Normals, Orientation, Parts,
+    Pose, Render, Room, Sampling, Shading, View, shelf, theme,
 };
 
 /// How pictures look before any setting: a starting point for all of them.
@@ -53,8 +53,10 @@ fn thesis() -> Config {
             aperture: 0.0,
             focus: DVec3::new(14.0, 0.0, 14.0),
             pose: Pose::default(),
+            path: Vec::new(),
         },
         knights: Knights::Kingside,
+        captured: Captured::Films,
         render: Render {
             shading: Shading::Phong,
             sampling: Sampling::Grid,

@@ -3,6 +3,7 @@
 //! A new key is a field of a settings type and a line in the table of its section.
 
 mod camera;
+mod camera_path;
 mod checks;
 mod ini;
 mod keys;
@@ -17,6 +18,7 @@ mod theme;
 mod values;
 
 pub use camera::{Camera, ORIENTATIONS, Orientation, Pose, VIEWS, View};
+pub use camera_path::{KeyFrame, When};
 pub use keys::unknown;
 pub use look::Look;
 pub use material::{Axis, Coat, Finish, Mapping, Material, Texture};
@@ -62,6 +64,7 @@ pub struct Config {
     pub parts: Parts,
     /// Which way pieces look.
     pub knights: Knights,
+    pub captured: Captured,
     pub clock: Clock,
     pub models: Vec<Model>,
     /// By name, in small letters; every name that the other settings use is here.
@@ -188,6 +191,22 @@ pub enum Knights {
     /// As all pieces were made: towards the h-file.
     Kingside,
 }
+
+/// Where captured pieces stay.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Captured {
+    /// Beside the board in films; in other pictures they are gone.
+    Films,
+    /// Beside the board.
+    Beside,
+    /// Gone.
+    Gone,
+}
+
+/// Places of captured pieces, by name.
+pub const CAPTURED: [(&str, Captured); 3] =
+    [("films", Captured::Films), ("beside", Captured::Beside), ("gone", Captured::Gone)];
 
 /// The clock beside the board.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -9,16 +9,18 @@ use super::values::{
     Choice, ColorOrTransparent, Integer, Name, Number, Optional, PLACE, Time, Triple, YES_NO,
 };
 use super::{
-    Clock, Config, FARTHEST, Fault, Filter, Knights, Light, MAX_RAYS, MAX_SIDE, Model, Normals,
-    Render, Room, Sampling, Shading, Shape, camera, material, model, theme,
+    CAPTURED, Clock, Config, FARTHEST, Fault, Filter, Knights, Light, MAX_RAYS, MAX_SIDE, Model,
+    Normals, Render, Room, Sampling, Shading, Shape, View, camera, camera_path, material, model,
+    theme,
 };
 
 const MAX_LIGHTS: u32 = 100;
 const MAX_MODELS: u32 = 1000;
 
-const SECTIONS: [&str; 11] = [
+const SECTIONS: [&str; 12] = [
     "GlobalSettings",
     "Camera",
+    "CameraPath",
     "Light0",
     "Room",
     "Model0",
@@ -92,10 +94,11 @@ const NORMALS: Choice<Normals> = Choice(&[("flat", Normals::Flat), ("smooth", No
 const FILTERS: Choice<Filter> =
     Choice(&[("nearest", Filter::Nearest), ("bilinear", Filter::Bilinear), ("mip", Filter::Mip)]);
 
-const PIECES_KEYS: [Key<Config>; 3] = [
+const PIECES_KEYS: [Key<Config>; 4] = [
     key!("White", Config, parts.white: Optional(Name)),
     key!("Black", Config, parts.black: Optional(Name)),
     key!("Knights", Config, knights: KNIGHTS),
+    key!("Captured", Config, captured: Choice(&CAPTURED)),
 ];
 
 const KNIGHTS: Choice<Knights> = Choice(&[
@@ -135,6 +138,8 @@ pub fn interpret(
     let mut global_lines = Lines::default();
     let mut part_lines: Vec<PartLines> = Vec::new();
     let mut seen: Vec<String> = Vec::new();
+    let mut names_view = false;
+    let mut path_line = None;
     for section in document {
         let words: Vec<String> = section.name.split_whitespace().map(str::to_lowercase).collect();
         let name = words.join(" ");
@@ -153,7 +158,11 @@ pub fn interpret(
             "globalsettings" => {
                 global_lines = read_section(section, &GLOBAL_KEYS, &mut global, faults);
             }
-            "camera" => camera::read(section, &mut config.camera, faults),
+            "camera" => names_view = camera::read(section, &mut config.camera, faults),
+            "camerapath" => {
+                camera_path::read(section, &mut config.camera, faults);
+                path_line = Some(section.line);
+            }
             "render" => {
                 read_section(section, &RENDER_KEYS, &mut config.render, faults);
             }
@@ -234,6 +243,12 @@ pub fn interpret(
         faults,
     ) {
         config.models = models;
+    }
+    if path_line.is_some() && !names_view {
+        config.camera.view = View::Path;
+    }
+    if let Some(message) = camera_path::missing(&config.camera).filter(|_| path_line.is_none()) {
+        faults.push(Fault { line: 0, message });
     }
     if !config.themes.contains_key(&config.theme) && !global_lines.failed("Theme") {
         let known = config.themes.keys().map(String::as_str);
@@ -320,6 +335,7 @@ pub fn show(config: &Config) -> String {
     }
     show_section("Room", &ROOM_KEYS, &config.room, &mut out);
     show_section("Camera", &camera::KEYS, &config.camera, &mut out);
+    camera_path::show(&config.camera, &mut out);
     show_section("Render", &RENDER_KEYS, &config.render, &mut out);
     show_section("Board", &theme::BOARD_KEYS, &config.parts, &mut out);
     show_section("Pieces", &PIECES_KEYS, config, &mut out);

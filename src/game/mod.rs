@@ -176,6 +176,14 @@ impl Game {
         }
     }
 
+    /// Who is to move after `ply` half-moves.
+    pub fn to_move(&self, ply: usize) -> Color {
+        match ply.checked_sub(1) {
+            None => self.start.turn,
+            Some(index) => self.plies[index].after.turn(),
+        }
+    }
+
     /// The name of the first move that the game can have: `1w`, or from a FEN another.
     pub fn first_move(&self) -> String {
         format!("{}{}", self.start.fullmoves, self.start.turn.char())

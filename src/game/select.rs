@@ -109,17 +109,22 @@ impl Moment {
     /// # Errors
     /// When the game begins later, or ends earlier.
     pub fn ply(self, game: &Game) -> Result<usize, Absent> {
-        let ply = match self {
-            Moment::Ply(ply) => ply as u64,
-            Moment::End => game.plies.len() as u64,
+        let ply = usize::try_from(self.counted(game)).map_err(|_| Absent::BeforeTheStart)?;
+        if ply <= game.plies.len() { Ok(ply) } else { Err(Absent::BehindTheEnd) }
+    }
+
+    /// The number of half-moves after which `game` is there, or would be if it began earlier (then it is below 0)
+    /// or went on.
+    pub fn counted(self, game: &Game) -> i64 {
+        match self {
+            Moment::Ply(ply) => ply as i64,
+            Moment::End => game.plies.len() as i64,
             Moment::After(number, color) => {
                 let first =
-                    2 * u64::from(game.start.fullmoves.get()) + game.start.turn.fold_wb(0, 1);
-                let after = 2 * u64::from(number) + color.fold_wb(1, 2);
-                after.checked_sub(first).ok_or(Absent::BeforeTheStart)?
+                    2 * i64::from(game.start.fullmoves.get()) + game.start.turn.fold_wb(0, 1);
+                2 * i64::from(number) + color.fold_wb(1, 2) - first
             }
-        };
-        usize::try_from(ply).ok().filter(|ply| *ply <= game.plies.len()).ok_or(Absent::BehindTheEnd)
+        }
     }
 }
 

@@ -5,9 +5,8 @@ use std::path::{Path, PathBuf};
 
 use super::studio::{PictureSettings, Studio};
 use super::subject::{Subject, keep_inputs};
-use super::{JobError, Progress, shown};
+use super::{JobError, Progress, Showing, shown};
 use crate::output::{encode_png, prepare_file, write_picture};
-use crate::scene::Reach;
 use crate::tracer::RayCounts;
 
 /// Which position to render, and where to.
@@ -38,9 +37,9 @@ pub fn diagram(
     progress: &dyn Progress,
     stdout: &mut dyn Write,
 ) -> Result<DiagramSummary, JobError> {
-    let shot = job.subject.read(progress)?;
+    let shot = job.subject.read(&job.picture.config, progress)?;
     keep_inputs(&job.subject, &job.picture, &job.output)?;
-    let mut studio = Studio::new(&job.picture, Reach::default())?;
+    let mut studio = Studio::new(&job.picture, Showing::default().reach(&job.picture.config))?;
     let to_stdout = job.output == Path::new("-");
     if !to_stdout {
         prepare_file(&job.output)?;

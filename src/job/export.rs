@@ -5,10 +5,9 @@ use std::path::{Path, PathBuf};
 
 use super::studio::{PictureSettings, stage};
 use super::subject::{Subject, keep_inputs};
-use super::{JobError, Progress, shown};
+use super::{JobError, Progress, Showing, shown};
 use crate::export::pov;
 use crate::output::{Content, encode_png, prepare_file, write_together};
-use crate::scene::Reach;
 
 /// Which position to write down, and where to.
 #[derive(Clone, Debug)]
@@ -31,8 +30,9 @@ pub fn export(
     progress: &dyn Progress,
     stdout: &mut dyn Write,
 ) -> Result<bool, JobError> {
-    let shot = job.subject.read(progress)?;
-    let scene = stage(&job.picture, Reach::default())?.scene(&shot.frame);
+    let shot = job.subject.read(&job.picture.config, progress)?;
+    let scene =
+        stage(&job.picture, Showing::default().reach(&job.picture.config))?.scene(&shot.frame);
     let config = &job.picture.config;
     let stem = job.output.file_stem().map_or("scene".into(), |stem| stem.to_string_lossy());
     let written = pov(&scene, config.width, config.height, &plain(&stem));

@@ -9,6 +9,7 @@ mod export;
 mod inspect;
 mod render;
 mod report;
+mod script;
 mod studio;
 mod subject;
 
@@ -17,6 +18,7 @@ pub use diagram::{DiagramJob, DiagramSummary, diagram};
 pub use export::{ExportJob, export};
 pub use inspect::{InspectJob, inspect};
 pub use render::{RenderJob, Summary, render};
+pub use script::Showing;
 pub use studio::PictureSettings;
 pub use subject::Subject;
 
@@ -27,6 +29,7 @@ use crate::assets::AssetError;
 use crate::game::{Game, Moment, Selection, SourceError, printable};
 use crate::output::OutputError;
 use crate::scene::StageError;
+use crate::timeline::PathError;
 
 /// Why a job could not be done.
 #[derive(Debug, thiserror::Error)]
@@ -50,6 +53,12 @@ pub enum JobError {
     InputInOutput { path: PathBuf },
     #[error("{file}: game {game} would take {frames} frames, expected at most {MAX_FRAMES}")]
     TooLong { file: String, game: usize, frames: usize },
+    #[error(
+        "--frames: {file}: game {game} has frames 0 to {last}, expected no others, found {wanted}"
+    )]
+    NoSuchFrames { file: String, game: usize, last: usize, wanted: String },
+    #[error("{file}: game {game}: {error}")]
+    Path { file: String, game: usize, error: PathError },
     #[error(transparent)]
     Assets(#[from] AssetError),
     #[error(transparent)]

@@ -2,18 +2,19 @@
 
 use std::ffi::OsStr;
 use std::fs;
+use std::ops::{Range, RangeInclusive};
 use std::path::{Path, PathBuf};
 
 use super::report::{FrameRow, Manifest, ReportLine, Status, tags, texts};
 use super::studio::{PictureSettings, Studio};
-use super::{JobError, MAX_FRAMES, Progress, say_missing, say_problems, shown};
+use super::{JobError, MAX_FRAMES, Progress, Showing, say_missing, say_problems, shown};
 use crate::game::{Absent, Game, Moment, Problem, Selection, Source, printable, shortened};
 use crate::notation::Color;
 use crate::output::{
-    frame_name, prepare_folder, remove_frames, slug, write_json, write_json_lines, write_png,
+    frame_name, manifest_name, prepare_folder, remove_frames, slug, write_json, write_json_lines,
+    write_png,
 };
-use crate::scene::Reach;
-use crate::timeline::{Film, Timeline};
+use crate::timeline::{Script, Timeline};
 use crate::tracer::RayCounts;
 
 /// Which games to render, how, and where to.
@@ -28,10 +29,9 @@ pub struct RenderJob {
     /// The first position and the last one.
     pub from: Moment,
     pub to: Moment,
-    /// Frames between the positions; one picture a position when `None`.
-    pub film: Option<Film>,
-    /// How far the camera turns about the board over each game, in degrees.
-    pub orbit: f64,
+    pub showing: Showing,
+    /// Which frames of each game, counted as in the whole; all when `None`.
+    pub frames: Option<RangeInclusive<usize>>,
     pub picture: PictureSettings,
 }
 
@@ -55,11 +55,12 @@ struct Batch {
     games: Vec<(Game, Option<Part>)>,
 }
 
-/// The part of a game that is shown: its first and last position, in half-moves.
+/// The part of a game that is shown: its first and last position, in half-moves, and which of the frames
+/// between them.
 struct Part {
     first: usize,
     last: usize,
-    frames: usize,
+    frames: Range<usize>,
 }
 
 /// Renders games into pictures; each gets a manifest, each file a report.
@@ -71,19 +72,20 @@ struct Part {
 /// # Errors
 /// Input that cannot be read, output that cannot be written, or a selection without games.
 pub fn render(job: &RenderJob, progress: &dyn Progress) -> Result<Summary, JobError> {
+    let script = job.showing.script(&job.picture.config);
     let mut batches = Vec::new();
     for (input, name) in job.inputs.iter().zip(folder_names(&job.inputs)) {
-        batches.push(read_batch(job, input, job.out.join(name), progress)?);
+        batches.push(read_batch(job, &script, input, job.out.join(name), progress)?);
     }
-    let reach = Reach { moves: job.film.is_some(), orbit: job.orbit };
-    let studio = Studio::new(&job.picture, reach)?;
-    let mut run = Run { job, progress, studio, summary: Summary::default() };
+    let studio = Studio::new(&job.picture, job.showing.reach(&job.picture.config))?;
+    let script = Script { bodies: studio.bodies().clone(), ..script };
+    let mut run = Run { job, script, progress, studio, summary: Summary::default() };
     for batch in &batches {
         keep_out(job, &batch.folder)?;
         prepare_folder(&batch.folder)?;
     }
     let parts = batches.iter().flat_map(|batch| &batch.games).filter_map(|(_, part)| part.as_ref());
-    progress.begin(parts.map(|part| part.frames as u64).sum());
+    progress.begin(parts.map(|part| part.frames.len() as u64).sum());
     for batch in &batches {
         if !run.summary.cancelled {
             run.batch(batch)?;
@@ -128,6 +130,7 @@ fn folder_names(inputs: &[PathBuf]) -> Vec<String> {
 
 fn read_batch(
     job: &RenderJob,
+    script: &Script,
     input: &Path,
     folder: PathBuf,
     progress: &dyn Progress,
@@ -141,14 +144,16 @@ fn read_batch(
         if job.selection.as_ref().is_some_and(|selection| !selection.contains(game.number)) {
             continue;
         }
-        let part = part(job, &mut game);
+        let span = span(job, &mut game);
         say_problems(&file, &game, progress);
-        if let Some(Part { frames, .. }) = part
-            && frames > MAX_FRAMES
-        {
-            return Err(JobError::TooLong { file, game: game.number, frames });
-        }
-        games.push((game, part));
+        let part = span.map(|(first, last)| {
+            frames(job, script, &game, [first, last], &file).map(|frames| Part {
+                first,
+                last,
+                frames,
+            })
+        });
+        games.push((game, part.transpose()?));
     }
     if games.is_empty() {
         return Err(JobError::NothingSelected { file, games: seen });
@@ -157,8 +162,36 @@ fn read_batch(
     Ok(Batch { file, folder, games })
 }
 
-/// What to show of a game; why nothing is added to its problems.
-fn part(job: &RenderJob, game: &mut Game) -> Option<Part> {
+/// The frames to render of a game between two positions.
+fn frames(
+    job: &RenderJob,
+    script: &Script,
+    game: &Game,
+    [first, last]: [usize; 2],
+    file: &str,
+) -> Result<Range<usize>, JobError> {
+    let (file, number) = (file.to_owned(), game.number);
+    let frames = match Timeline::new(game, first, last, script) {
+        Ok(timeline) => timeline.frames(),
+        Err(error) => return Err(JobError::Path { file, game: number, error }),
+    };
+    if frames > MAX_FRAMES {
+        return Err(JobError::TooLong { file, game: number, frames });
+    }
+    match &job.frames {
+        None => Ok(0..frames),
+        Some(wanted) if *wanted.end() < frames => Ok(*wanted.start()..*wanted.end() + 1),
+        Some(wanted) => Err(JobError::NoSuchFrames {
+            file,
+            game: number,
+            last: frames - 1,
+            wanted: format!("{} to {}", wanted.start(), wanted.end()),
+        }),
+    }
+}
+
+/// The first and the last position to show of a game, in half-moves; why none is added to its problems.
+fn span(job: &RenderJob, game: &mut Game) -> Option<(usize, usize)> {
     if !game.start_is_known {
         return None;
     }
@@ -171,9 +204,7 @@ fn part(job: &RenderJob, game: &mut Game) -> Option<Part> {
     };
     let (flag, moment, clause) = match (first, last) {
         (Ok(first), Ok(last)) if first <= last => {
-            let moves = last - first;
-            let frames = job.film.map_or(moves + 1, |film| film.frames(moves));
-            return Some(Part { first, last, frames });
+            return Some((first, last));
         }
         (Ok(_), Ok(last)) => ("--from", job.from, format!("is behind {}", game.moment_name(last))),
         (Err((flag, moment, Absent::BeforeTheStart)), _)
@@ -196,6 +227,7 @@ fn part(job: &RenderJob, game: &mut Game) -> Option<Part> {
 /// A job under way.
 struct Run<'a> {
     job: &'a RenderJob,
+    script: Script,
     progress: &'a dyn Progress,
     studio: Studio<'a>,
     summary: Summary,
@@ -245,13 +277,16 @@ impl Run<'_> {
         part: &Part,
     ) -> Result<(), JobError> {
         prepare_folder(folder)?;
-        remove_frames(folder)?;
+        remove_frames(folder, self.job.frames.as_ref())?;
         let players = [Color::White, Color::Black].map(|color| shortened(game.player(color), 60));
         self.progress.game(&players.join(" – "));
-        let timeline = Timeline::new(game, part.first, part.last, self.job.film, self.job.orbit);
+        let timeline =
+            Timeline::new(game, part.first, part.last, &self.script).map_err(|error| {
+                JobError::Path { file: batch.file.clone(), game: game.number, error }
+            })?;
         let mut rows = Vec::new();
         let mut shown_last = None;
-        for index in 0..timeline.frames() {
+        for index in part.frames.clone() {
             if self.progress.is_cancelled() {
                 self.summary.cancelled = true;
                 break;
@@ -278,11 +313,11 @@ impl Run<'_> {
             result: &game.result,
             problems: &game.problems,
             settings: self.studio.record(),
-            film: self.job.film,
-            orbit: self.job.orbit,
+            film: self.job.showing.animate.then_some(self.job.showing.film),
+            orbit: self.job.showing.orbit,
             frames: rows,
         };
-        Ok(write_json(&folder.join("game.json"), &manifest)?)
+        Ok(write_json(&folder.join(manifest_name(self.job.frames.as_ref())), &manifest)?)
     }
 }
 

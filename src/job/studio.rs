@@ -10,7 +10,7 @@ use crate::assets::{Assets, SetName};
 use crate::config::{Config, Render, Sampling};
 use crate::game::printable;
 use crate::scene::{Reach, Stage};
-use crate::timeline::Frame;
+use crate::timeline::{Bodies, Frame};
 use crate::tracer::{self, Antialiasing, RayCounts};
 
 /// What all pictures of a job have in common.
@@ -86,6 +86,11 @@ impl<'a> Studio<'a> {
         let (picture, rays) = self.threads.install(|| tracer::render(&scene, width, height, mode));
         self.rays = self.rays + rays;
         picture
+    }
+
+    /// The room that pieces and board take.
+    pub fn bodies(&self) -> &Bodies {
+        self.stage.bodies()
     }
 
     /// How many threads trace.

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use super::report::texts;
 use super::studio::PictureSettings;
-use super::{JobError, Progress, say_problems, shown};
+use super::{JobError, Progress, Showing, say_problems, shown};
+use crate::config::Config;
 use crate::game::{Game, Moment, Source};
 use crate::notation::Placement;
 use crate::timeline::{Frame, Timeline};
@@ -29,7 +30,7 @@ pub(super) struct Shot {
 
 impl Subject {
     /// Reads the position.
-    pub(super) fn read(&self, progress: &dyn Progress) -> Result<Shot, JobError> {
+    pub(super) fn read(&self, config: &Config, progress: &dyn Progress) -> Result<Shot, JobError> {
         let (file, number, at) = match self {
             Subject::Placement { placement, fen } => {
                 let frame = Frame::still(*placement);
@@ -44,7 +45,7 @@ impl Subject {
             games = game.number;
             if game.number == number {
                 say_problems(&name, &game, progress);
-                return shot(name, &game, at);
+                return shot(name, &game, at, config);
             }
         }
         Err(JobError::NothingSelected { file: name, games })
@@ -71,17 +72,20 @@ pub(super) fn keep_inputs(
     Ok(())
 }
 
-fn shot(file: String, game: &Game, at: Moment) -> Result<Shot, JobError> {
+fn shot(file: String, game: &Game, at: Moment, config: &Config) -> Result<Shot, JobError> {
     if !game.start_is_known {
         return Err(JobError::NoPosition { file, game: game.number });
     }
     let ply = at.ply(game).map_err(|_| JobError::NoSuchMoment {
-        file,
+        file: file.clone(),
         game: game.number,
         moment: at,
         start: game.moment_name(0),
         end: game.moment_name(game.plies.len()),
     })?;
-    let frame = Timeline::new(game, ply, ply, None, 0.0).frame(0);
+    let script = Showing::default().script(config);
+    let timeline = Timeline::new(game, ply, ply, &script);
+    let timeline = timeline.map_err(|error| JobError::Path { file, game: game.number, error })?;
+    let frame = timeline.frame(0);
     Ok(Shot { texts: texts(game, &frame), frame, is_whole: game.is_whole() })
 }

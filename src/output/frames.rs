@@ -1,6 +1,7 @@
 //! Names of numbered pictures.
 
 use std::fs;
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 use super::OutputError;
@@ -10,27 +11,52 @@ pub fn frame_name(index: usize) -> String {
     format!("frame_{index:05}.png")
 }
 
-/// Removes the numbered pictures of an earlier run from `folder`: they would stand among the new
-/// ones, and be of another film.
+/// The name of a game's manifest, or of that of a part of its frames.
+pub fn manifest_name(part: Option<&RangeInclusive<usize>>) -> String {
+    match part {
+        None => "game.json".to_owned(),
+        Some(part) => format!("game_{:05}-{:05}.json", part.start(), part.end()),
+    }
+}
+
+/// Removes the numbered pictures of an earlier run from `folder`, and manifests of parts of it: they would
+/// stand among the new ones, and be of another film. Where a `part` is rendered, only its pictures.
 ///
 /// # Errors
 /// When the folder cannot be read, or a picture cannot be removed.
-pub fn remove_frames(folder: &Path) -> Result<(), OutputError> {
+pub fn remove_frames(
+    folder: &Path,
+    part: Option<&RangeInclusive<usize>>,
+) -> Result<(), OutputError> {
     let failed = |error| OutputError { path: folder.to_owned(), error };
     for entry in fs::read_dir(folder).map_err(failed)? {
         let path = entry.map_err(failed)?.path();
-        if path.is_file() && path.file_name().is_some_and(|name| is_frame(&name.to_string_lossy()))
-        {
+        let name = path.file_name().map(|name| name.to_string_lossy()).unwrap_or_default();
+        let is_old = match (frame_index(&name), part) {
+            (Some(index), Some(part)) => part.contains(&index),
+            (Some(_), None) => true,
+            (None, part) => part.is_none() && is_part_manifest(&name),
+        };
+        if is_old && path.is_file() {
             fs::remove_file(&path).map_err(failed)?;
         }
     }
     Ok(())
 }
 
-fn is_frame(name: &str) -> bool {
-    name.strip_prefix("frame_")
-        .and_then(|rest| rest.strip_suffix(".png"))
-        .is_some_and(|digits| digits.len() >= 5 && digits.bytes().all(|b| b.is_ascii_digit()))
+/// Which picture has that name, if one has.
+fn frame_index(name: &str) -> Option<usize> {
+    let digits = name.strip_prefix("frame_")?.strip_suffix(".png")?;
+    is_number(digits).then(|| digits.parse().unwrap_or(usize::MAX))
+}
+
+fn is_part_manifest(name: &str) -> bool {
+    let part = name.strip_prefix("game_").and_then(|rest| rest.strip_suffix(".json"));
+    part.and_then(|part| part.split_once('-')).is_some_and(|(a, b)| is_number(a) && is_number(b))
+}
+
+fn is_number(digits: &str) -> bool {
+    digits.len() >= 5 && digits.bytes().all(|b| b.is_ascii_digit())
 }
 
 #[cfg(test)]
@@ -39,9 +65,20 @@ mod tests {
 
     #[test]
     fn only_what_is_named_as_a_frame_is_one() {
-        assert!(is_frame(&frame_name(7)) && is_frame(&frame_name(1_234_567)));
+        for index in [0, 7, 1_234_567] {
+            assert_eq!(frame_index(&frame_name(index)), Some(index));
+        }
         for other in ["frame_1.png", "frame_0000x.png", "frame_00001.jpg", "my_frame_00001.png"] {
-            assert!(!is_frame(other), "{other}");
+            assert_eq!(frame_index(other), None, "{other}");
+        }
+    }
+
+    #[test]
+    fn manifests_of_parts_are_told_from_others() {
+        assert!(is_part_manifest(&manifest_name(Some(&(100..=250)))));
+        for other in [&manifest_name(None), "game_1-2.json", "game_00100.json", "game_my-own.json"]
+        {
+            assert!(!is_part_manifest(other), "{other}");
         }
     }
 }

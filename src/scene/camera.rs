@@ -77,6 +77,16 @@ impl Camera {
         }
     }
 
+    /// This camera nearer to `point` by a share of its way there.
+    pub fn nearer(&self, point: DVec3, share: f64) -> Camera {
+        Camera { position: self.position.lerp(point, share), ..*self }
+    }
+
+    /// This camera moved by `way`, with all that it looks at.
+    pub fn moved(&self, way: DVec3) -> Camera {
+        Camera { position: self.position + way, ..*self }
+    }
+
     /// From which side of the board it looks, in degrees from White's, anticlockwise as seen from
     /// above.
     pub fn azimuth(&self) -> f64 {

@@ -5,6 +5,7 @@
 //! bodies alone.
 
 mod board;
+mod bodies;
 mod camera;
 mod clock;
 mod coordinates;
@@ -25,6 +26,7 @@ mod texture;
 mod timber;
 mod view;
 
+pub use bodies::bodies;
 pub use camera::{Camera, Projection};
 pub use coordinates::Side;
 pub use joinery::Joinery;

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::board::board;
+use super::bodies::bodies;
 use super::facing::Facing;
 use super::materials::{MaterialError, Materials};
 use super::measures::{MIDDLE, SQUARE};
@@ -12,11 +13,11 @@ use super::models::model;
 use super::noise::hash;
 use super::{Camera, Object, Reach, Rgb, Room, Scene, Side, Surface, clock, view};
 use crate::assets::Assets;
-use crate::config::{Config, Light, Shading};
-use crate::geometry::transform::translation;
+use crate::config::{self, Config, Light, Shading};
+use crate::geometry::transform::{scale, translation};
 use crate::geometry::{Csg, Placed};
 use crate::notation::{Color, Piece, Role, Square};
-use crate::timeline::{Frame, Spot};
+use crate::timeline::{Bodies, Frame, Gaze, Mover, Spot};
 
 /// A quarter of the least step that a picture can show. (Each surface of glass splits a ray in
 /// two; most of them are not worth following.)
@@ -25,6 +26,9 @@ const MIN_WEIGHT: f64 = 1.0 / 1024.0;
 /// The felt under a piece. Without it a foot of glass and the square beneath would be the same
 /// plane, and rounding would choose between them pixel by pixel.
 const FELT: f64 = 0.005;
+
+/// How far a camera leans, as a share of the way from the board's middle to what it leans towards.
+const LEAN: f64 = 0.35;
 
 /// Why a stage cannot be set.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -45,6 +49,8 @@ pub struct Stage {
     fixed: Vec<Object>,
     lights: Vec<Light>,
     camera: Camera,
+    bodies: Bodies,
+    lens: config::Camera,
     facing: Facing,
     background: Option<Rgb>,
     room: Option<Room>,
@@ -64,7 +70,10 @@ impl Stage {
         let materials = Materials { config, bitmaps: &assets.bitmaps };
         let scheme = config.scheme();
         let set = assets.set.clone();
-        let camera = view::camera(config, view::extent(&set), reach);
+        let has_room = reach.moves || reach.captured;
+        let bodies = if has_room { bodies(&set) } else { Bodies::default() };
+        let room = view::Room { man: view::extent(&set), bodies: &bodies };
+        let camera = view::camera(config, room, reach);
         let camera = camera.ok_or(StageError::FocusBehind)?;
         let mut fixed = board(&scheme, &materials, Side::near(&camera))?;
         if config.clock.show {
@@ -84,6 +93,8 @@ impl Stage {
             }),
             facing: Facing::new(config.knights, &camera),
             camera,
+            bodies,
+            lens: config.camera.clone(),
             background: scheme.background,
             max_depth: config.render.max_depth,
             max_distance: config.render.max_distance,
@@ -94,14 +105,13 @@ impl Stage {
     /// What `frame` shows.
     pub fn scene(&self, frame: &Frame) -> Scene {
         let standing = frame.placement.iter().map(|(square, piece)| {
-            self.object(piece, frame.identities.get(square), Spot::on(square))
+            self.object(piece, frame.identities.get(square), Spot::on(square), 1.0)
         });
-        let moving =
-            frame.movers.iter().map(|mover| self.object(mover.piece, mover.identity, mover.spot));
+        let loose = frame.movers.iter().chain(&frame.taken).map(|mover| self.loose(mover));
         Scene {
-            objects: self.fixed.iter().cloned().chain(standing).chain(moving).collect(),
+            objects: self.fixed.iter().cloned().chain(standing).chain(loose).collect(),
             lights: self.lights.clone(),
-            camera: self.camera.orbited(MIDDLE, frame.gaze.orbit),
+            camera: self.camera(&frame.gaze),
             background: self.background,
             room: self.room.clone(),
             max_depth: self.max_depth,
@@ -111,8 +121,33 @@ impl Stage {
         }
     }
 
-    /// A piece on its spot. Its grain is that of its identity; in the thesis all are of one tree.
-    fn object(&self, piece: Piece, identity: Square, spot: Spot) -> Object {
+    /// The room that pieces and board take, where any move or stand beside the board.
+    pub fn bodies(&self) -> &Bodies {
+        &self.bodies
+    }
+
+    /// The camera with a gaze.
+    fn camera(&self, gaze: &Gaze) -> Camera {
+        let Gaze { orbit, lean: [across, away], pose } = gaze;
+        let camera = match pose {
+            // A lens that shows nothing sharp ahead is none.
+            Some(pose) => {
+                let pinhole = Camera::free(pose);
+                let config::Camera { aperture, focus, .. } = self.lens;
+                pinhole.focused(aperture / 2.0, focus).unwrap_or(pinhole)
+            }
+            None => self.camera,
+        };
+        let lean = DVec3::new(*across, 0.0, *away) * (LEAN * SQUARE);
+        camera.moved(lean).orbited(MIDDLE, *orbit)
+    }
+
+    fn loose(&self, Mover { piece, identity, spot, size }: &Mover) -> Object {
+        self.object(*piece, *identity, *spot, *size)
+    }
+
+    /// A piece on its spot, as large as the share `size` of it. Its grain is that of its identity; in the thesis all are of one tree.
+    fn object(&self, piece: Piece, identity: Square, spot: Spot, size: f64) -> Object {
         let solid = match piece.role {
             Role::Pawn => 0,
             Role::Knight => 1,
@@ -125,7 +160,7 @@ impl Stage {
         Object {
             body: Placed::new(
                 self.pieces[solid].clone(),
-                translation(place) * self.facing.turn(piece),
+                translation(place) * self.facing.turn(piece) * scale(size),
             ),
             surface: self.surfaces[match piece.color {
                 Color::White => 0,

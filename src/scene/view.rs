@@ -11,13 +11,15 @@ use crate::assets::PieceSet;
 use crate::config::{self, Config, Orientation, Pose, View};
 use crate::geometry::transform::{rotation_x, rotation_y, translation};
 use crate::geometry::{Bounds, Solid};
-use crate::timeline::{BESIDE, CARRIED};
+use crate::timeline::{Bodies, ceiling, tray_reach};
 
 /// What the pictures of a job may show besides positions at rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reach {
-    /// Whether moves are under way: captured pieces are carried off beside the board.
+    /// Whether moves are under way: captured pieces are carried over others to their place beside the board.
     pub moves: bool,
+    /// Whether captured pieces stand beside the board.
+    pub captured: bool,
     /// How far the camera turns about the board, in degrees.
     pub orbit: f64,
 }
@@ -32,9 +34,21 @@ struct Stand {
     field: Option<f64>,
 }
 
+/// How much nearer to the board's middle a camera is that leans towards the piece which moves, as a share
+/// of its way there.
+const FOLLOWING: f64 = 0.22;
+
 /// Degrees between the turns of an orbit that are looked at. Between two of them a corner reaches at
 /// most 0.1 % farther from the axis than in one.
 const ORBIT_STEP: f64 = 5.0;
+
+/// The room that pieces take: a box that holds each of them where it was made, and where any of them move or
+/// stand beside the board, the room of each.
+#[derive(Clone, Copy)]
+pub struct Room<'a> {
+    pub man: Bounds,
+    pub bodies: &'a Bodies,
+}
 
 /// The smallest box that is known to hold each piece of a set where it was made.
 pub fn extent(set: &PieceSet) -> Bounds {
@@ -42,31 +56,38 @@ pub fn extent(set: &PieceSet) -> Bounds {
     men.iter().fold(Bounds::EMPTY, |all, man| all.union(man.bounds()))
 }
 
-/// The camera that `config` asks for, before any orbit, with pieces that fit into `man`; `None` when
+/// The camera that `config` asks for, before any orbit, with pieces that take so much `room`; `None` when
 /// what its lens is to show sharp lies behind it.
-pub fn camera(config: &Config, man: Bounds, reach: Reach) -> Option<Camera> {
+pub fn camera(config: &Config, room: Room, reach: Reach) -> Option<Camera> {
     let config::Camera { aperture, focus, .. } = config.camera;
-    let pinhole = pinhole(config, man, reach);
+    let pinhole = pinhole(config, room, reach);
     if aperture > 0.0 { pinhole.focused(aperture / 2.0, focus) } else { Some(pinhole) }
 }
 
 /// The same without its lens.
-fn pinhole(config: &Config, man: Bounds, reach: Reach) -> Camera {
-    let config::Camera { view, orientation, pose, .. } = config.camera;
+fn pinhole(config: &Config, room: Room, reach: Reach) -> Camera {
+    let config::Camera { view, orientation, pose, path, .. } = &config.camera;
     let half_turn = match orientation {
         Orientation::White => 0.0,
         Orientation::Black => 180.0,
     };
-    let Some(Stand { elevation, azimuth, field }) = stand(view) else {
-        let pose = if view == View::Free { pose } else { Pose::default() };
+    let Some(Stand { elevation, azimuth, field }) = stand(*view) else {
+        let pose = match (view, path.first()) {
+            (View::Free, _) => *pose,
+            (View::Path, Some(key)) => key.pose,
+            _ => Pose::default(),
+        };
         let camera = Camera::free(&pose);
         return if half_turn == 0.0 { camera } else { camera.orbited(MIDDLE, half_turn) };
     };
     let turn = rotation_y(azimuth + half_turn) * rotation_x(elevation);
     let axes = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| turn.transform_vector3(axis));
-    let points = points(config, man, reach, axes[2]);
+    let points = points(config, room, reach, axes[2]);
     let aspect = f64::from(config.width) / f64::from(config.height);
     match field {
+        Some(field) if *view == View::Follow => {
+            framing::perspective(axes, field, &points, aspect).nearer(MIDDLE, FOLLOWING)
+        }
         Some(field) => framing::perspective(axes, field, &points, aspect),
         None => framing::parallel(axes, &points, aspect),
     }
@@ -75,35 +96,42 @@ fn pinhole(config: &Config, man: Bounds, reach: Reach) -> Camera {
 /// Where the views that show the whole board stand.
 fn stand(view: View) -> Option<Stand> {
     let (elevation, azimuth, field) = match view {
-        View::White => (45.0, -25.0, Some(26.0)),
+        View::White | View::Mover | View::Follow => (45.0, -25.0, Some(26.0)),
         View::Black => (45.0, 155.0, Some(26.0)),
         View::Top => (90.0, 0.0, None),
         View::Side => (35.0, 90.0, Some(26.0)),
         View::Player => (32.0, 0.0, Some(36.0)),
-        View::Thesis | View::Free => return None,
+        View::Thesis | View::Free | View::Path => return None,
     };
     Some(Stand { elevation, azimuth, field })
 }
 
 /// The corners of all that pictures must hold: the board, the tallest piece on every square,
-/// the clock where there is one, and what moves beside the board, for a camera that looks along
-/// `forward`.
-fn points(config: &Config, man: Bounds, reach: Reach, forward: DVec3) -> Vec<DVec3> {
+/// the clock where there is one, captured pieces beside the board and on their way there, for a camera
+/// that looks along `forward`.
+fn points(config: &Config, room: Room, reach: Reach, forward: DVec3) -> Vec<DVec3> {
+    let Room { man, bodies } = room;
     // It may be turned whichever way.
     let radius =
         [man.min.x, man.min.z, man.max.x, man.max.z].map(f64::abs).into_iter().fold(0.0, f64::max);
-    let on = |file: f64, height: f64| {
-        let foot = DVec3::new(file, height, 0.0) * SQUARE;
-        let half = DVec3::new(radius, 0.0, radius);
-        let length = DVec3::Z * 7.0 * SQUARE;
-        Bounds { min: foot - half, max: foot + half + length + DVec3::Y * man.max.y }
+    // So far from the middle to the right and away, between two heights.
+    let block = |across: f64, away: f64, bottom: f64, top: f64| Bounds {
+        min: MIDDLE + DVec3::new(-across, bottom, -away),
+        max: MIDDLE + DVec3::new(across, top, away),
     };
-    let mut boxes = vec![board::bounds(), on(0.0, 0.0), on(7.0, 0.0)];
+    let outer = 3.5 * SQUARE + radius;
+    let mut boxes = vec![board::bounds(), block(outer, outer, 0.0, man.max.y)];
     if config.clock.show {
         boxes.push(clock::bounds(&clock::place(forward)));
     }
-    if reach.moves {
-        boxes.extend([on(-BESIDE, CARRIED), on(7.0 + BESIDE, CARRIED)]);
+    if reach.moves || reach.captured {
+        let [beside, edge, table, capturable, ceiling] =
+            [tray_reach(bodies), bodies.edge, bodies.table, bodies.tallest()[1], ceiling(bodies)]
+                .map(|squares| squares * SQUARE);
+        boxes.push(block(beside, edge, table, table + capturable));
+        if reach.moves {
+            boxes.push(block(beside, outer, 0.0, ceiling + capturable));
+        }
     }
     // A camera that has turned one way sees the board turned the other way.
     let steps = (reach.orbit.abs().min(360.0) / ORBIT_STEP).ceil();

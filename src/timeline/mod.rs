@@ -3,53 +3,36 @@
 //! A [`Timeline`] gives frame `i` without the ones before it, so that any part of a film can be
 //! made alone. Times are seconds from the film's beginning.
 
+mod bodies;
+mod camera;
+mod film;
+mod flight;
 mod motion;
+mod path;
 mod pieces;
+mod plan;
 mod shown;
+mod tray;
 
-pub use motion::{BESIDE, CARRIED};
+pub use bodies::{Bodies, Envelope, SLICE};
+pub use camera::{Camerawork, Lead};
+pub use film::{Film, Pause};
+pub use path::PathError;
 pub use pieces::{Identities, Mover, Spot};
+pub use plan::ceiling;
 pub use shown::{Card, Dials, Gaze, Marks};
+pub use tray::reach as tray_reach;
+
+use std::cell::OnceCell;
 
 use crate::game::Game;
 use crate::notation::Placement;
 
+use camera::Track;
+use film::{Moment, Schedule, paced};
 use motion::Motion;
 use pieces::Position;
-
-/// Times of a film, in seconds, and its frames a second.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
-pub struct Film {
-    pub fps: f64,
-    /// How long a move takes.
-    pub transition: f64,
-    /// How long each position stands, but the first and the last.
-    pub pause: f64,
-    /// How long the first position stands.
-    pub first: f64,
-    /// How long the last position stands.
-    pub last: f64,
-}
-
-impl Default for Film {
-    fn default() -> Film {
-        Film { fps: 25.0, transition: 0.6, pause: 0.8, first: 1.0, last: 5.0 }
-    }
-}
-
-impl Film {
-    /// The length of a film of so many moves:
-    /// first + moves × transition + (moves − 1) × pause + last.
-    pub fn length(&self, moves: usize) -> f64 {
-        let pauses = moves.saturating_sub(1) as f64;
-        self.first + moves as f64 * self.transition + pauses * self.pause + self.last
-    }
-
-    /// The number of frames of a film of so many moves, at least 1.
-    pub fn frames(&self, moves: usize) -> usize {
-        ((self.length(moves) * self.fps).round() as usize).max(1)
-    }
-}
+use plan::Plan;
 
 /// What one picture shows.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,7 +46,7 @@ pub struct Frame {
     pub placement: Placement,
     /// Who the standing pieces are.
     pub identities: Identities,
-    /// Pieces that stand nowhere: on their way, or leaving the board.
+    /// Pieces on their way, or leaving the board; the one whose move it is comes first.
     pub movers: Vec<Mover>,
     /// Captured pieces that stand beside the board, in the order of their capture.
     pub taken: Vec<Mover>,
@@ -92,40 +75,72 @@ impl Frame {
         }
     }
 
-    /// Whether both frames are the same picture, whatever their times.
+    /// Whether both frames show the same scene, whatever their times and words.
     pub fn shows_the_same(&self, other: &Frame) -> bool {
-        let bare = |frame: &Frame| Frame { time: 0.0, ply: 0, ..frame.clone() };
+        let bare = |frame: &Frame| Frame { time: 0.0, ply: 0, card: None, ..frame.clone() };
         bare(self) == bare(other)
     }
 }
 
-/// All frames of a game, or of a part of it.
-pub struct Timeline {
-    positions: Vec<Position>,
-    /// The motion from each position to the next.
-    motions: Vec<Motion>,
-    first_ply: usize,
-    film: Option<Film>,
-    orbit: f64,
+/// How a game is shown.
+#[derive(Clone, Debug, Default)]
+pub struct Script {
+    pub film: Film,
+    /// Whether there are frames between the positions; else each position is one frame.
+    pub animate: bool,
+    pub camerawork: Camerawork,
+    /// The room that things take, where captured pieces stay beside the board, or move away.
+    pub bodies: Bodies,
+    /// Whether captured pieces stay beside the board.
+    pub keeps_captured: bool,
 }
 
-impl Timeline {
+/// All frames of a game, or of a part of it.
+pub struct Timeline<'a> {
+    script: &'a Script,
+    positions: Vec<Position>,
+    /// What leads from each position to the next.
+    motions: Vec<Motion>,
+    /// The ways of the pieces in each, once they were asked for.
+    plans: Vec<OnceCell<Plan>>,
+    first_ply: usize,
+    schedule: Schedule,
+    /// What happens in each frame, where each position is one.
+    stills: Vec<Moment>,
+    track: Track,
+}
+
+impl<'a> Timeline<'a> {
     /// The positions of `game` from ply `first` to ply `last` (both shown, at most the game's
-    /// length): one frame each, or with `film` as a film. The camera turns by `orbit` degrees over
-    /// the whole.
-    pub fn new(game: &Game, first: usize, last: usize, film: Option<Film>, orbit: f64) -> Timeline {
+    /// length), as `script` has it.
+    ///
+    /// # Errors
+    /// A camera's path that cannot be taken.
+    pub fn new(
+        game: &Game,
+        first: usize,
+        last: usize,
+        script: &'a Script,
+    ) -> Result<Timeline<'a>, PathError> {
+        let schedule = schedule(game, first, last, script.film);
         let mut position = Position::new(game.placement(0));
         let mut timeline = Timeline {
+            script,
             positions: Vec::with_capacity(last + 1 - first),
             motions: Vec::with_capacity(last - first),
+            plans: vec![OnceCell::new(); last - first],
             first_ply: first,
-            film,
-            orbit,
+            stills: stills(last - first, script.film),
+            track: Track::new(&script.camerawork, game, [first, last], &schedule)?,
+            schedule,
         };
         for ply in 0..=last {
             if ply > 0 {
                 let motion = Motion::new(&game.plies[ply - 1].played);
                 position = motion.after(&position, game.placement(ply));
+                if !script.keeps_captured {
+                    position.taken.clear();
+                }
                 if ply > first {
                     timeline.motions.push(motion);
                 }
@@ -134,62 +149,82 @@ impl Timeline {
                 timeline.positions.push(position.clone());
             }
         }
-        timeline
+        Ok(timeline)
     }
 
     /// The number of frames, at least 1.
     pub fn frames(&self) -> usize {
-        match &self.film {
-            None => self.positions.len(),
-            Some(film) => film.frames(self.motions.len()),
-        }
+        if self.script.animate { self.schedule.frames() } else { self.stills.len() }
     }
 
     /// Frame `index`, from 0 to `frames() - 1`.
     pub fn frame(&self, index: usize) -> Frame {
-        let mut frame = match &self.film {
-            None => self.at_rest(index, reached(&Film::default(), index)),
-            Some(film) => self.at_time(film, index as f64 / film.fps),
+        let (moment, time) = if self.script.animate {
+            let time = self.schedule.time(index);
+            (self.schedule.at(time), time)
+        } else {
+            let moment = self.stills[index];
+            (moment, self.still_time(moment))
         };
         let steps = self.frames().saturating_sub(1).max(1);
-        frame.gaze.orbit = self.orbit * index as f64 / steps as f64;
-        frame
+        let whole = index as f64 / steps as f64;
+        Frame { gaze: self.track.gaze(moment, time, whole), time, ..self.at(moment) }
     }
 
-    fn at_rest(&self, moves: usize, time: f64) -> Frame {
+    fn at(&self, moment: Moment) -> Frame {
+        match moment {
+            Moment::Title => Frame { card: Some(Card::Title), ..self.at_rest(0) },
+            Moment::Rest { moves, .. } => self.at_rest(moves),
+            Moment::Result { moves } => Frame { card: Some(Card::Result), ..self.at_rest(moves) },
+            Moment::Move { moves, passed } => {
+                let position = &self.positions[moves];
+                let plan = self.plans[moves]
+                    .get_or_init(|| Plan::new(&self.motions[moves], position, &self.script.bodies));
+                let (placement, movers) = plan.under_way(position, passed);
+                Frame { placement, movers, ..self.at_rest(moves) }
+            }
+        }
+    }
+
+    fn at_rest(&self, moves: usize) -> Frame {
         let position = &self.positions[moves];
         Frame {
-            time,
             ply: self.first_ply + moves,
             identities: position.identities,
+            taken: tray::movers(&position.taken, &self.script.bodies),
             ..Frame::still(position.placement)
         }
     }
 
-    fn at_time(&self, film: &Film, time: f64) -> Frame {
-        let since_first = time - film.first;
-        let period = film.transition + film.pause;
-        let moves = self.motions.len();
-        if since_first <= 0.0 || moves == 0 {
-            return self.at_rest(0, time);
-        }
-        let begun = if period > 0.0 { since_first / period } else { f64::INFINITY };
-        if begun >= moves as f64 {
-            return self.at_rest(moves, time);
-        }
-        let current = begun as usize;
-        let passed = (since_first - current as f64 * period) / film.transition;
-        if passed < 1.0 {
-            let position = &self.positions[current];
-            let (standing, movers) = self.motions[current].under_way(position, passed.max(0.0));
-            Frame { placement: standing, movers, ..self.at_rest(current, time) }
-        } else {
-            self.at_rest(current + 1, time)
+    /// When a film would reach a picture of a position.
+    fn still_time(&self, moment: Moment) -> f64 {
+        match moment {
+            Moment::Title => 0.0,
+            Moment::Rest { moves, .. } | Moment::Move { moves, .. } => {
+                self.schedule.reached(moves as i64)
+            }
+            Moment::Result { .. } => self.schedule.length(),
         }
     }
 }
 
-/// When a film reaches the position after so many moves.
-fn reached(film: &Film, moves: usize) -> f64 {
-    if moves == 0 { 0.0 } else { Film { last: 0.0, ..*film }.length(moves) }
+/// The times of the film of a part of `game`.
+fn schedule(game: &Game, first: usize, last: usize, film: Film) -> Schedule {
+    let moves = last - first;
+    let pauses = match film.pause {
+        Pause::Even(seconds) => vec![seconds; moves.saturating_sub(1)],
+        Pause::Real => {
+            let thought: Vec<_> = (first + 2..=last).map(|ply| game.notes(ply).elapsed).collect();
+            paced(&thought)
+        }
+    };
+    Schedule::new(film, moves, &pauses)
+}
+
+/// The frames of a game, or of a part of it with so many `moves`, without those between the positions.
+fn stills(moves: usize, film: Film) -> Vec<Moment> {
+    let title = (film.title > 0.0).then_some(Moment::Title);
+    let result = (film.result > 0.0).then_some(Moment::Result { moves });
+    let rests = (0..=moves).map(|moves| Moment::Rest { moves, passed: 1.0 });
+    title.into_iter().chain(rests).chain(result).collect()
 }

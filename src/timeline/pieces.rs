@@ -1,9 +1,9 @@
-//! Pieces with an identity, on squares and between them.
+//! Pieces with an identity, on squares and off them.
 
 use crate::notation::{Piece, Placement, Square};
 
-/// A place on or above the board, in squares: (0, 0) is the middle of a1, files go to the right
-/// and ranks away from White; the height counts from the board's surface.
+/// A place on, above or beside the board, in squares: (0, 0) is the middle of a1, files go to the
+/// right and ranks away from White; the height counts from the board's surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spot {
     pub file: f64,
@@ -17,6 +17,18 @@ impl Spot {
         let (file, rank) = square.coords();
         Spot { file: f64::from(u32::from(file)), rank: f64::from(u32::from(rank)), height: 0.0 }
     }
+
+    /// How far it is from the board's middle towards the nearest side, seen from above: 4.0 at the edge of
+    /// the outer squares.
+    pub fn from_middle(self) -> f64 {
+        (self.file - 3.5).abs().max((self.rank - 3.5).abs())
+    }
+
+    /// How far apart two places are as seen from above.
+    pub fn apart(self, other: Spot) -> f64 {
+        let (across, away) = (self.file - other.file, self.rank - other.rank);
+        (across * across + away * away).sqrt()
+    }
 }
 
 /// A piece that stands on no square.
@@ -26,6 +38,9 @@ pub struct Mover {
     /// The square where the piece stood when the game began.
     pub identity: Square,
     pub spot: Spot,
+    /// How large it is, as a share of its own size, above 0 up to 1: a pawn and what it becomes are less
+    /// while one gives way to the other.
+    pub size: f64,
 }
 
 /// Who stands on each square: the square where the piece was when the game began (a promoted
@@ -56,11 +71,20 @@ impl Identities {
 pub struct Position {
     pub placement: Placement,
     pub identities: Identities,
+    /// Those that are captured, in the order of their capture.
+    pub taken: Vec<Taken>,
+}
+
+/// A captured piece.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Taken {
+    pub piece: Piece,
+    pub identity: Square,
 }
 
 impl Position {
     /// The position that a game starts from.
     pub fn new(placement: Placement) -> Position {
-        Position { placement, identities: Identities::default() }
+        Position { placement, identities: Identities::default(), taken: Vec::new() }
     }
 }

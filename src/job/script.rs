@@ -1,0 +1,58 @@
+//! From settings to what timelines and stages are told.
+
+use crate::config::{Camera, Captured, Config, View};
+use crate::scene::Reach;
+use crate::timeline::{Camerawork, Film, Lead, Script};
+
+/// How games are shown in time.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Showing {
+    /// The film's times; those of a film that might be made, where there is one frame a position.
+    pub film: Film,
+    /// Whether there are frames between the positions.
+    pub animate: bool,
+    /// How far the camera turns about the board, in degrees.
+    pub orbit: f64,
+    /// Whether it turns so far with each move, instead of over the whole game.
+    pub orbits_each_move: bool,
+}
+
+impl Showing {
+    /// What a timeline is to do with the settings of `config`, but for the room that pieces take.
+    pub fn script(&self, config: &Config) -> Script {
+        let Camera { view, path, .. } = &config.camera;
+        let lead = match view {
+            View::Mover => Lead::Mover,
+            View::Follow => Lead::Piece,
+            View::Path => Lead::Path(path.clone()),
+            _ => Lead::Nothing,
+        };
+        Script {
+            film: self.film,
+            animate: self.animate,
+            camerawork: Camerawork { orbit: self.orbit, each_move: self.orbits_each_move, lead },
+            keeps_captured: self.keeps_captured(config),
+            ..Script::default()
+        }
+    }
+
+    /// What pictures have to hold.
+    pub fn reach(&self, config: &Config) -> Reach {
+        let mover = if config.camera.view == View::Mover { 180.0 } else { 0.0 };
+        // So many moves that it is a whole turn, if it turns with each.
+        let orbit = if self.orbits_each_move { self.orbit * 360.0 } else { self.orbit };
+        Reach {
+            moves: self.animate,
+            captured: self.keeps_captured(config),
+            orbit: orbit.abs() + mover,
+        }
+    }
+
+    fn keeps_captured(&self, config: &Config) -> bool {
+        match config.captured {
+            Captured::Films => self.animate,
+            Captured::Beside => true,
+            Captured::Gone => false,
+        }
+    }
+}

@@ -1,0 +1,53 @@
+//! The way of one piece through a move's time.
+
+use super::pieces::Spot;
+
+/// A way up, over and down again; times are shares of the move's time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Flight {
+    pub from: Spot,
+    pub to: Spot,
+    /// The height that it rises to, in squares above the board.
+    pub over: f64,
+    /// Which share of its own time it takes to rise, and so to sink: 0.5 makes an arc.
+    pub rise: f64,
+    /// Which share of its own time it goes straight up first, and straight down at last.
+    pub steep: f64,
+    /// When it begins and ends.
+    pub begin: f64,
+    pub end: f64,
+}
+
+impl Flight {
+    /// Where the piece is when the part `passed` (0 to 1) of the move's time is over.
+    pub fn at(&self, passed: f64) -> Spot {
+        let own = ((passed - self.begin) / (self.end - self.begin)).clamp(0.0, 1.0);
+        let along = ease((own - self.steep) / (1.0 - 2.0 * self.steep));
+        let (ground, left) =
+            if own < 0.5 { (self.from.height, own) } else { (self.to.height, 1.0 - own) };
+        Spot {
+            file: mix(self.from.file, self.to.file, along),
+            rank: mix(self.from.rank, self.to.rank, along),
+            height: mix(ground, self.over.max(ground), arc(left / self.rise)),
+        }
+    }
+}
+
+/// From 0 to 1 with a gentle beginning and end; it stays there.
+pub fn ease(t: f64) -> f64 {
+    let t = t.clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
+/// From 0 to 1 with a quick beginning and a gentle end; it stays there. (A piece has to be high before it
+/// has gone far.)
+fn arc(t: f64) -> f64 {
+    let t = t.clamp(0.0, 1.0);
+    let once = t * (2.0 - t);
+    once * (2.0 - once)
+}
+
+/// The point that divides the way from `a` to `b` at the share `t`.
+pub fn mix(a: f64, b: f64, t: f64) -> f64 {
+    a + (b - a) * t
+}
