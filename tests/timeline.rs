@@ -1,9 +1,11 @@
-//! Frames of films: how many, when, and that pieces go where the rules say.
+//! Frames of films: how many, when, and where the camera is.
 
+use lightsquare::config::{Config, KeyFrame};
 use lightsquare::game::{Game, Scanner};
-use lightsquare::notation::{Color, Role, Square};
-use lightsquare::timeline::{Film, Frame, Mover, Spot, Timeline};
-use std::collections::BTreeMap;
+use lightsquare::notation::Square;
+use lightsquare::timeline::{
+    Camerawork, Card, Film, Frame, Lead, PathError, Pause, Script, Timeline,
+};
 
 fn game(text: &str) -> Game {
     let scanned = Scanner::new(text.as_bytes()).next().unwrap().unwrap();
@@ -12,31 +14,23 @@ fn game(text: &str) -> Game {
     game
 }
 
-fn stills(game: &Game) -> Timeline {
-    Timeline::new(game, 0, game.plies.len(), None, 0.0)
+fn whole<'a>(game: &Game, script: &'a Script) -> Timeline<'a> {
+    Timeline::new(game, 0, game.plies.len(), script).unwrap()
 }
 
-fn film(game: &Game) -> Timeline {
-    Timeline::new(game, 0, game.plies.len(), Some(Film::default()), 0.0)
+fn film() -> Script {
+    Script { animate: true, ..Script::default() }
 }
 
-/// The frame in the middle of the last move.
-fn halfway(game: &Game) -> Frame {
-    let moves = game.plies.len();
-    let film = Film { fps: 100.0, ..Film::default() };
-    let timeline = Timeline::new(game, 0, moves, Some(film), 0.0);
-    let begins = film.length(moves) - film.last - film.transition;
-    timeline.frame(((begins + film.transition / 2.0) * film.fps).round() as usize)
-}
-
-fn moving(frame: &Frame, role: Role) -> &Mover {
-    frame.movers.iter().find(|mover| mover.piece.role == role).unwrap()
+fn frames(timeline: &Timeline) -> Vec<Frame> {
+    (0..timeline.frames()).map(|index| timeline.frame(index)).collect()
 }
 
 #[test]
 fn stills_are_one_frame_a_position() {
     let game = game("1. e4 e5 2. Nf3 *");
-    let timeline = stills(&game);
+    let script = Script::default();
+    let timeline = whole(&game, &script);
     assert_eq!(timeline.frames(), 4);
     for ply in 0..=3 {
         let frame = timeline.frame(ply);
@@ -54,7 +48,8 @@ fn a_films_length_is_first_moves_pauses_and_last() {
     ];
     for (text, seconds) in cases {
         let game = game(&format!("[Event \"x\"]\n\n{text}"));
-        let timeline = film(&game);
+        let script = film();
+        let timeline = whole(&game, &script);
         assert_eq!(timeline.frames(), (seconds * 25.0_f64).round() as usize, "{text}");
         let last = timeline.frame(timeline.frames() - 1);
         assert_eq!(last.time, (timeline.frames() - 1) as f64 / 25.0);
@@ -65,7 +60,8 @@ fn a_films_length_is_first_moves_pauses_and_last() {
 #[test]
 fn a_film_shows_every_position_at_rest_in_order() {
     let game = game("1. e4 d5 2. exd5 Qxd5 3. Nc3 *");
-    let timeline = film(&game);
+    let script = film();
+    let timeline = whole(&game, &script);
     let mut rests = Vec::new();
     for index in 0..timeline.frames() {
         let frame = timeline.frame(index);
@@ -82,8 +78,9 @@ fn a_film_shows_every_position_at_rest_in_order() {
 #[test]
 fn parts_of_a_game_keep_identities() {
     let game = game("1. e4 d5 2. exd5 Qxd5 *");
-    let whole = stills(&game);
-    let part = Timeline::new(&game, 2, 4, None, 0.0);
+    let script = Script::default();
+    let whole = whole(&game, &script);
+    let part = Timeline::new(&game, 2, 4, &script).unwrap();
     assert_eq!(part.frames(), 3);
     for index in 0..3 {
         let (a, b) = (part.frame(index), whole.frame(index + 2));
@@ -96,115 +93,169 @@ fn parts_of_a_game_keep_identities() {
 #[test]
 fn a_position_that_comes_back_is_the_same_picture() {
     let game = game("1. Nf3 Nf6 2. Ng1 Ng8 *");
-    let timeline = stills(&game);
+    let script = Script::default();
+    let timeline = whole(&game, &script);
     assert!(timeline.frame(4).shows_the_same(&timeline.frame(0)));
     assert!(!timeline.frame(3).shows_the_same(&timeline.frame(0)));
 }
 
+/// The formula of the README, and the times of all frames.
 #[test]
-fn sliders_glide_and_knights_hop() {
-    let pawn = halfway(&game("1. e4 *"));
-    let mover = moving(&pawn, Role::Pawn);
-    assert_eq!((mover.spot.file, mover.spot.rank), (4.0, 2.0));
-    assert!(mover.spot.height < 0.1);
-    let knight = halfway(&game("1. Nf3 *"));
-    assert!(moving(&knight, Role::Knight).spot.height > 1.67);
-    assert_eq!(pawn.placement.get(Square::E2), None);
-    assert_eq!(pawn.placement.get(Square::E4), None);
-}
-
-#[test]
-fn a_captured_piece_leaves_and_only_that_one() {
-    let frame = halfway(&game("1. e4 d5 2. exd5 *"));
-    assert_eq!(frame.movers.len(), 2);
-    let taken = frame.movers.iter().find(|mover| mover.piece.color == Color::Black).unwrap();
-    assert_eq!((taken.identity, taken.spot.file, taken.spot.rank), (Square::D7, 3.0, 4.0));
-    assert!(taken.spot.height > 1.0);
-}
-
-#[test]
-fn en_passant_takes_the_pawn_beside() {
-    let frame = halfway(&game("1. e4 a6 2. e5 d5 3. exd6 *"));
-    let taken = frame.movers.iter().find(|mover| mover.piece.color == Color::Black).unwrap();
-    assert_eq!((taken.identity, taken.spot.file, taken.spot.rank), (Square::D7, 3.0, 4.0));
-    assert_eq!(frame.placement.get(Square::D5), None);
-}
-
-#[test]
-fn castling_moves_both_and_the_rook_hops() {
-    let cases = [
-        ("1. Nf3 a6 2. g3 a5 3. Bg2 a4 4. O-O *", 5.0, 6.0),
-        ("1. Nc3 a6 2. b3 a5 3. Bb2 a4 4. e3 h6 5. Qe2 h5 6. O-O-O *", 3.0, 1.5),
+fn frames_and_times_are_those_of_the_formula() {
+    let games = ["*", "1. e4 *", "1. e4 e5 2. Nf3 *", "1. e4 d5 2. exd5 Qxd5 3. Nc3 Qa5 *"];
+    let films = [
+        Film::default(),
+        Film { fps: 30.0, pause: Pause::Even(0.0), ..Film::default() },
+        Film { fps: 7.5, transition: 0.0, pause: Pause::Even(0.3), ..Film::default() },
+        Film { fps: 60.0, first: 0.0, last: 0.0, ..Film::default() },
+        Film { fps: 24.0, title: 2.0, result: 3.0, ..Film::default() },
     ];
-    for (text, king, rook) in cases {
-        let frame = halfway(&game(text));
-        assert_eq!(frame.movers.len(), 2);
-        let (k, r) = (moving(&frame, Role::King), moving(&frame, Role::Rook));
-        assert!(((k.spot.file - king).abs() < 1.0) && (r.spot.file - rook).abs() < 0.6, "{text}");
-        assert!(r.spot.height > 1.67 && k.spot.height < 0.1);
-    }
-}
-
-#[test]
-fn chess960_castling_moves_what_has_to_move() {
-    // The king stands on its square already: only the rook moves.
-    let fen = "[Variant \"Chess960\"]\n[SetUp \"1\"]\n[FEN \"4k3/8/8/8/8/8/8/R1K5 w Q - 0 1\"]\n\n";
-    let game = game(&format!("{fen}1. O-O-O *"));
-    let frame = halfway(&game);
-    assert_eq!(frame.movers.len(), 1);
-    assert_eq!(moving(&frame, Role::Rook).identity, Square::A1);
-    let last = stills(&game).frame(1);
-    assert_eq!(last.identities.get(Square::D1), Square::A1);
-    assert_eq!(last.identities.get(Square::C1), Square::C1);
-}
-
-#[test]
-fn a_promoted_pawn_stays_who_it_was() {
-    let fen = "[SetUp \"1\"]\n[FEN \"8/4P1k1/8/8/8/8/8/4K3 w - - 0 1\"]\n\n";
-    let game = game(&format!("{fen}1. e8=N+ *"));
-    assert_eq!(halfway(&game).movers[0].piece.role, Role::Pawn);
-    let last = stills(&game).frame(1);
-    assert_eq!(last.placement.get(Square::E8).unwrap().role, Role::Knight);
-    assert_eq!(last.identities.get(Square::E8), Square::E7);
-}
-
-/// Where each piece is, by identity.
-fn places(frame: &Frame) -> BTreeMap<Square, Spot> {
-    let standing =
-        frame.placement.iter().map(|(square, _)| (frame.identities.get(square), Spot::on(square)));
-    standing.chain(frame.movers.iter().map(|mover| (mover.identity, mover.spot))).collect()
-}
-
-#[test]
-fn no_piece_jumps_or_vanishes_but_a_captured_one() {
-    let game = game("1. e4 d5 2. exd5 Nf6 3. Nf3 Nxd5 4. Bc4 e6 5. O-O *");
-    let timeline = film(&game);
-    let mut last = places(&timeline.frame(0));
-    assert_eq!(last.len(), 32);
-    let mut vanished = Vec::new();
-    for index in 1..timeline.frames() {
-        let now = places(&timeline.frame(index));
-        for (identity, a) in &last {
-            match now.get(identity) {
-                None => vanished.push((*identity, *a)),
-                Some(b) => {
-                    let far = (a.file - b.file).hypot(a.rank - b.rank).hypot(a.height - b.height);
-                    assert!(far < 1.0, "{identity} by {far} squares in frame {index}");
-                }
+    for text in games {
+        let game = game(&format!("[Event \"x\"]\n\n{text}"));
+        let moves = game.plies.len() as f64;
+        for film in films {
+            let Film { fps, transition, first, last, title, result, .. } = film;
+            let Pause::Even(pause) = film.pause else { unreachable!() };
+            let seconds =
+                title + first + moves * transition + (moves - 1.0).max(0.0) * pause + last + result;
+            let script = Script { film, animate: true, ..Script::default() };
+            let frames = frames(&whole(&game, &script));
+            assert_eq!(frames.len(), ((seconds * fps).round() as usize).max(1), "{text}, {film:?}");
+            for (index, frame) in frames.iter().enumerate() {
+                assert_eq!(frame.time, index as f64 / fps);
+                let card = match frame.time {
+                    time if time < title => Some(Card::Title),
+                    time if result > 0.0 && time >= seconds - result => Some(Card::Result),
+                    _ => None,
+                };
+                assert_eq!(frame.card, card, "{text}, {film:?}, {index}");
+                // Whether a move is under way, as the formula has it.
+                let since_first = frame.time - title - first;
+                let begun = since_first / (transition + pause);
+                let moving = since_first >= 0.0
+                    && begun < moves
+                    && since_first - begun.floor() * (transition + pause) < transition;
+                let border = (since_first / (transition + pause)).fract().min(1.0);
+                let near = [0.0, 1.0, transition / (transition + pause)]
+                    .into_iter()
+                    .any(|at| (border - at).abs() < 1e-6);
+                assert!(near || frame.movers.is_empty() != moving, "{text}, {film:?}, {index}");
             }
         }
-        last = now;
     }
-    let identities: Vec<Square> = vanished.iter().map(|(identity, _)| *identity).collect();
-    assert_eq!(identities, [Square::D7, Square::E2]);
-    // They have left the board when they are gone.
-    assert!(vanished.iter().all(|(_, spot)| spot.height > 3.0));
+}
+
+#[test]
+fn without_animation_title_and_result_are_one_picture_each() {
+    let game = game("1. e4 e5 *");
+    let film = Film { title: 3.0, result: 2.0, ..Film::default() };
+    let script = Script { film, ..Script::default() };
+    let cards: Vec<_> = frames(&whole(&game, &script)).iter().map(|frame| frame.card).collect();
+    assert_eq!(cards, [Some(Card::Title), None, None, None, Some(Card::Result)]);
+}
+
+fn with(camerawork: Camerawork) -> Script {
+    Script { camerawork, ..Script::default() }
 }
 
 #[test]
 fn the_camera_turns_evenly_over_the_whole() {
     let game = game("1. e4 e5 2. Nf3 *");
-    let timeline = Timeline::new(&game, 0, 3, None, 90.0);
-    let turns: Vec<f64> = (0..4).map(|index| timeline.frame(index).gaze.orbit).collect();
-    assert_eq!(turns, [0.0, 30.0, 60.0, 90.0]);
+    let turns = |work| -> Vec<f64> {
+        let script = with(work);
+        frames(&whole(&game, &script)).iter().map(|frame| frame.gaze.orbit).collect()
+    };
+    let orbit = Camerawork { orbit: 90.0, ..Camerawork::default() };
+    assert_eq!(turns(orbit.clone()), [0.0, 30.0, 60.0, 90.0]);
+    assert_eq!(turns(Camerawork { each_move: true, ..orbit }), [0.0, 90.0, 180.0, 270.0]);
+    let mover = Camerawork { lead: Lead::Mover, ..Camerawork::default() };
+    assert_eq!(turns(mover), [0.0, 180.0, 0.0, 180.0]);
+}
+
+/// How far the camera turns or leans between two frames at most.
+fn steps(script: &Script, of: impl Fn(&Frame) -> f64) -> (f64, f64) {
+    let game = game("1. e4 d5 2. exd5 Qxd5 3. Nc3 *");
+    let values: Vec<f64> = frames(&whole(&game, script)).iter().map(of).collect();
+    let step = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f64::max);
+    (step, values.iter().copied().fold(0.0, f64::max))
+}
+
+#[test]
+fn the_camera_never_jumps() {
+    let film =
+        |lead| Script { animate: true, ..with(Camerawork { lead, ..Camerawork::default() }) };
+    // A half-turn in 0.64 s is 16 frames: 17° a frame where it is quickest.
+    let (step, most) = steps(&film(Lead::Mover), |frame| frame.gaze.orbit);
+    assert!(step < 17.5 && most == 180.0, "{step}, {most}");
+    let (step, most) = steps(&film(Lead::Piece), |frame| frame.gaze.lean[0] + 4.0);
+    assert!(step < 0.4 && most > 3.5, "{step}, {most}");
+}
+
+fn keys(lines: &str) -> Vec<KeyFrame> {
+    Config::parse(&format!("[CameraPath]\n{lines}")).unwrap().camera.path
+}
+
+fn path(lines: &str) -> Script {
+    let lead = Lead::Path(keys(lines));
+    Script { animate: true, ..with(Camerawork { lead, ..Camerawork::default() }) }
+}
+
+#[test]
+fn a_path_goes_through_its_key_frames_and_smoothly_between_them() {
+    let game = game("1. e4 e5 2. Nf3 Nc6 *");
+    let script = path(
+        "0.2 = 0,10,-30 | 14,0,14 | 60\n1w = 10,20,-30 | 14,0,14 | 80 | 10\n\
+         2w = 30,20,-20 | 10,0,14 | 80\n99w = 40,20,0 | 14,0,14 | 60",
+    );
+    let timeline = whole(&game, &script);
+    let pose = |index: usize| timeline.frame(index).gaze.pose.unwrap();
+    // 0.2 s is frame 5; the first move rests at 1.6 s, White's second at 4.4 s.
+    for (index, x, fov, roll) in
+        [(0, 0.0, 60.0, 0.0), (5, 0.0, 60.0, 0.0), (40, 10.0, 80.0, 10.0), (110, 30.0, 80.0, 0.0)]
+    {
+        let pose = pose(index);
+        for (found, expected) in [(pose.position.x, x), (pose.fov, fov), (pose.z_rot, roll)] {
+            assert!((found - expected).abs() < 1e-9, "frame {index}: {pose:?}");
+        }
+    }
+    let places: Vec<f64> = (0..timeline.frames()).map(|index| pose(index).position.x).collect();
+    assert!(places.windows(2).all(|pair| pair[1] >= pair[0]), "it goes on, never back");
+    // No kinks: the step changes little from frame to frame.
+    let steps: Vec<f64> = places.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let kink = steps.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f64::max);
+    assert!(kink < 0.05, "{kink}");
+    // A move that the game does not have is where it would be: the camera is still on its way.
+    assert!(places[places.len() - 1] < 40.0);
+}
+
+#[test]
+fn paths_that_cannot_be_taken_are_refused() {
+    let game = game("1. e4 e5 2. Nf3 Nc6 *");
+    // In seconds and moves they may be mixed; the second move rests at 3 s.
+    let script = path("4 = 0,10,-30 | 14,0,14 | 60\n1b = 10,20,-30 | 14,0,14 | 80");
+    let error = Timeline::new(&game, 0, 4, &script).err().unwrap();
+    assert!(matches!(error, PathError::OutOfOrder { .. }), "{error}");
+    assert!(error.to_string().contains("`1b` comes at 3.00 s, and `4` before it at 4.00 s"));
+    let script = path("0 = 14,0,0 | 14,0,14 | 60\n4 = 14,0,28 | 14,0,14 | 60");
+    let error = Timeline::new(&game, 0, 4, &script).err().unwrap();
+    assert!(matches!(error, PathError::ThroughLookAt { .. }), "{error}");
+}
+
+#[test]
+fn a_real_pause_follows_the_moves_times() {
+    let text = "1. e4 {[%emt 0:00:02]} e5 {[%emt 0:00:10]} 2. Nf3 {[%emt 0:00:20]} \
+                Nc6 {[%emt 0:01:40]} 3. Bb5 {[%emt 0:00:01]} *";
+    let game = game(text);
+    let film = Film { pause: Pause::Real, fps: 100.0, ..Film::default() };
+    let script = Script { film, animate: true, ..Script::default() };
+    let frames = frames(&whole(&game, &script));
+    // The median of 10, 20, 100 and 1 is 15 s.
+    let pauses = [10.0 / 15.0 * 0.8, 20.0 / 15.0 * 0.8, 2.0, 0.4];
+    let seconds = 1.0 + 5.0 * 0.6 + pauses.iter().sum::<f64>() + 5.0;
+    assert_eq!(frames.len(), (seconds * 100.0_f64).round() as usize);
+    for (index, pause) in pauses.into_iter().enumerate() {
+        let resting = |frame: &&Frame| frame.movers.is_empty() && frame.ply == index + 1;
+        let rests = frames.iter().filter(resting).count() as f64 / 100.0;
+        assert!((rests - pause).abs() < 0.011, "{index}: {rests}");
+    }
 }

@@ -41,12 +41,14 @@ pub const SLICE: f64 = 1.0 / 32.0;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Envelope {
     radii: Vec<f64>,
+    widest: f64,
 }
 
 impl Envelope {
     /// An envelope by the radii of its slices, each [`SLICE`] thick, from the foot up.
     pub fn new(radii: Vec<f64>) -> Envelope {
-        Envelope { radii }
+        let widest = radii.iter().copied().fold(0.0, f64::max);
+        Envelope { radii, widest }
     }
 
     /// From the foot to the top.
@@ -56,17 +58,13 @@ impl Envelope {
 
     /// The radius of the widest slice.
     pub fn radius(&self) -> f64 {
-        self.radii.iter().copied().fold(0.0, f64::max)
+        self.widest
     }
 
     /// How far apart this envelope with its foot on `spot` and an `other` on its own are, seen from above and
     /// at the heights that both have: below 0 where they overlap, infinite where one is above the other.
     pub fn gap(&self, spot: Spot, other: &Envelope, others: Spot) -> f64 {
         let apart = spot.apart(others);
-        if apart > self.radius() + other.radius() + 1.0 {
-            // Far enough, however far it is.
-            return apart - self.radius() - other.radius();
-        }
         // Where the foot of the other is, in slices of this one.
         let shift = (others.height - spot.height) / SLICE;
         let mut reach = f64::NEG_INFINITY;

@@ -19,6 +19,19 @@ pub struct Flight {
 }
 
 impl Flight {
+    /// The point of its way, as seen from above, that is nearest to a `spot`.
+    pub fn nearest(&self, spot: Spot) -> Spot {
+        let (across, away) = (self.to.file - self.from.file, self.to.rank - self.from.rank);
+        let length2 = across * across + away * away;
+        let towards = (spot.file - self.from.file) * across + (spot.rank - self.from.rank) * away;
+        let along = if length2 > 0.0 { (towards / length2).clamp(0.0, 1.0) } else { 0.0 };
+        Spot {
+            file: mix(self.from.file, self.to.file, along),
+            rank: mix(self.from.rank, self.to.rank, along),
+            ..spot
+        }
+    }
+
     /// Where the piece is when the part `passed` (0 to 1) of the move's time is over.
     pub fn at(&self, passed: f64) -> Spot {
         let own = ((passed - self.begin) / (self.end - self.begin)).clamp(0.0, 1.0);

@@ -34,7 +34,7 @@ struct Manner {
 
 /// A slight lift.
 const GLIDE: Manner = Manner { least: 0.05, shapes: [(0.25, 0.0), (0.25, 0.1), (0.3, 0.3)] };
-const HOP: Manner = Manner { least: 0.75, shapes: [(0.5, 0.0), (0.4, 0.1), (0.3, 0.3)] };
+const HOP: Manner = Manner { least: 1.0, shapes: [(0.5, 0.0), (0.4, 0.1), (0.3, 0.3)] };
 /// A captured piece's way out.
 const LEAVE: Manner = Manner { least: 0.6, shapes: [(0.4, 0.12), (0.35, 0.2), (0.3, 0.3)] };
 
@@ -237,7 +237,11 @@ impl<'a> Field<'a> {
 
     /// Whether it keeps clear of all that stands.
     fn clears(&self, envelope: &Envelope, flight: &Flight) -> bool {
-        self.standing.iter().all(|(other, spot)| {
+        let mut near = self.standing.iter().filter(|(other, spot)| {
+            let most = envelope.radius() + other.radius() + CLEAR;
+            spot.apart(flight.nearest(*spot)) < most
+        });
+        near.all(|(other, spot)| {
             let gap = |place| envelope.gap(place, other, *spot);
             let least = CLEAR.min(gap(flight.from)).min(gap(flight.to)) - ROUNDING;
             looks().all(|passed| gap(flight.at(passed)) >= least)
