@@ -173,3 +173,63 @@ pub fn missing(camera: &Camera) -> Option<String> {
     is_missing
         .then(|| "the camera `path` needs a section [CameraPath], and there is none".to_owned())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::Config;
+    use super::*;
+
+    fn read(lines: &str) -> Result<Vec<KeyFrame>, String> {
+        let config = Config::parse(&format!("[CameraPath]\n{lines}"));
+        config.map(|config| config.camera.path).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn key_frames_are_read_and_printed() {
+        let text = "start = 0,1,2 | 3,4,5 | 60\n9W=1,1,2|3,4,5|60|-5\n9b = 2,1,2 | 3,4,5 | 1\n2.5s = \
+                    3,1,2 | 3,4,5 | 340\nEND = 4,1,2 | 3,4,5 | 60";
+        let path = read(text).unwrap();
+        let times: Vec<String> = path.iter().map(|key| key.at.to_string()).collect();
+        assert_eq!(times, ["start", "9w", "9b", "2.5", "end"]);
+        assert_eq!((path[1].pose.z_rot, path[1].pose.fov), (-5.0, 60.0));
+        let config = Config::parse(&format!("[CameraPath]\n{text}")).unwrap();
+        assert_eq!(config.camera.view, View::Path);
+        assert_eq!(Config::parse(&config.to_ini()).unwrap(), config);
+        // Another view, told of in the file, stays.
+        let named = Config::parse(&format!("[CameraPath]\n{text}\n[Camera]\nView=top")).unwrap();
+        assert_eq!((named.camera.view, named.camera.path.len()), (View::Top, 5));
+    }
+
+    #[test]
+    fn what_is_no_path_is_told_with_its_line() {
+        let cases = [
+            ("", "line 1: [CameraPath] has no key frames"),
+            ("soon = 0,1,2 | 3,4,5 | 60", "line 2: `soon` is no time of a film, expected seconds"),
+            ("-1 = 0,1,2 | 3,4,5 | 60", "line 2: `-1` is no time of a film"),
+            ("0w = 0,1,2 | 3,4,5 | 60", "line 2: `0w` is no time of a film"),
+            (
+                "1 = 0,1,2 | 3,4,5",
+                "the key frame `1` is `0,1,2 | 3,4,5`, expected position | look-at",
+            ),
+            ("1 = 0,1 | 3,4,5 | 60", "expected three numbers"),
+            ("1 = 0,1,2 | 3,4,5 | 0", "expected a number from 1 to 340 as its FOV"),
+            ("1 = 0,1,2 | 3,4,5 | 9 | 400", "expected a number from -360 to 360 as its roll"),
+            ("1 = 0,1,2 | 0,1,2 | 60", "expected another point to look at than its position"),
+            (
+                "2 = 0,1,2 | 3,4,5 | 9\n1 = 0,1,2 | 3,4,5 | 9",
+                "line 3: the key frame `1` stands behind `2`",
+            ),
+            (
+                "9b = 0,1,2 | 3,4,5 | 9\n9w = 0,1,2 | 3,4,5 | 9",
+                "line 3: the key frame `9w` stands behind `9b`",
+            ),
+            ("end = 0,1,2 | 3,4,5 | 9\n9w = 0,1,2 | 3,4,5 | 9", "`9w` stands behind `end`"),
+        ];
+        for (lines, message) in cases {
+            let error = read(lines).unwrap_err();
+            assert!(error.contains(message), "{lines:?} gave {error:?}");
+        }
+        let error = Config::parse("[Camera]\nView=path").unwrap_err().to_string();
+        assert!(error.contains("needs a section [CameraPath]"), "{error}");
+    }
+}

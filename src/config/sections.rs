@@ -423,7 +423,10 @@ mod tests {
             ),
             ("[Theme]", "line 1: [Theme] has no name, expected one behind it"),
             ("[Theme \"a\"]", "line 1: [Theme \"a\"] has a quote in its name"),
-            ("[Camera]\nView=sied", "player, thesis, free (did you mean `side`?)"),
+            (
+                "[Camera]\nView=sied",
+                "player, mover, follow, thesis, free, path (did you mean `side`?)",
+            ),
             ("[Camera]\nAperture=x\nFocus=1,2,3", "line 2: Aperture is `x`, expected a number"),
             (
                 "[GlobalSettings]\nTheme=marbel",

@@ -125,10 +125,11 @@ fn points(config: &Config, room: Room, reach: Reach, forward: DVec3) -> Vec<DVec
         boxes.push(clock::bounds(&clock::place(forward)));
     }
     if reach.moves || reach.captured {
-        let [beside, edge, table, capturable, ceiling] =
-            [tray_reach(bodies), bodies.edge, bodies.table, bodies.tallest()[1], ceiling(bodies)]
+        let [beside, along] = tray_reach(bodies);
+        let [beside, along, table, capturable, ceiling] =
+            [beside, along, bodies.table, bodies.tallest()[1], ceiling(bodies)]
                 .map(|squares| squares * SQUARE);
-        boxes.push(block(beside, edge, table, table + capturable));
+        boxes.push(block(beside, along, table, table + capturable));
         if reach.moves {
             boxes.push(block(beside, outer, 0.0, ceiling + capturable));
         }
@@ -152,9 +153,24 @@ mod tests {
     use super::*;
     use crate::config::VIEWS;
     use crate::scene::Projection;
+    use crate::timeline::{Envelope, SLICE};
 
     /// As tall and wide as a king.
     const MAN: Bounds = Bounds { min: DVec3::new(-1.5, 0.0, -1.5), max: DVec3::new(1.5, 6.7, 1.5) };
+
+    fn room(bodies: &Bodies) -> Room<'_> {
+        Room { man: MAN, bodies }
+    }
+
+    /// Of men that are all as tall and wide.
+    fn bodies() -> Bodies {
+        let man = Envelope::new(vec![0.36; (MAN.max.y / SQUARE / SLICE) as usize]);
+        Bodies { envelopes: [(); 6].map(|()| man.clone()), edge: 4.55, table: -0.4 }
+    }
+
+    fn shows_all(view: View) -> bool {
+        stand(view).is_some() && view != View::Follow
+    }
 
     /// How far from the middle of its picture a point lies, 1 at the edges.
     fn beyond(camera: &Camera, point: DVec3, aspect: f64) -> f64 {
@@ -176,24 +192,26 @@ mod tests {
 
     #[test]
     fn named_views_hold_all_that_there_is_and_see_the_clocks_face_at_any_aspect() {
+        let bodies = bodies();
         let still = Reach::default();
-        let film = Reach { moves: true, orbit: 0.0 };
+        let film = Reach { moves: true, captured: true, orbit: 0.0 };
         // The frame's corner, the top of a king on a8 and on h1, the clock's corner, a queen that is
-        // carried off.
-        let points: [(Reach, bool, DVec3); 5] = [
+        // carried off over a king, one that stands beside the board.
+        let points: [(Reach, bool, DVec3); 6] = [
             (still, false, DVec3::new(-4.2, -1.6, 32.2)),
             (still, false, DVec3::new(0.0, 6.67, 28.0)),
             (still, false, DVec3::new(28.0, 6.67, 0.0)),
             (still, true, DVec3::new(-10.5, 5.2, 20.0)),
-            (film, false, DVec3::new(34.4, 18.76, 28.0)),
+            (film, false, DVec3::new(34.4, 12.9, 28.0)),
+            (film, false, DVec3::new(-7.4, 4.3, -3.0)),
         ];
-        for (name, view) in VIEWS.into_iter().filter(|(_, view)| stand(*view).is_some()) {
+        for (name, view) in VIEWS.into_iter().filter(|(_, view)| shows_all(*view)) {
             for orientation in [Orientation::White, Orientation::Black] {
                 for size in [[90, 160], [100, 100], [150, 100], [160, 90]] {
                     for (reach, clock, point) in points {
                         let mut config = config(view, orientation, size);
                         config.clock.show = clock;
-                        let camera = pinhole(&config, MAN, reach);
+                        let camera = pinhole(&config, room(&bodies), reach);
                         let place = clock::place(camera.axes()[2]);
                         let point = if clock { place.transform_point3(point) } else { point };
                         let face = place.transform_vector3(DVec3::X);
@@ -210,9 +228,10 @@ mod tests {
     /// The board's corners stand out most when it is seen by a diagonal.
     #[test]
     fn an_orbit_holds_the_board_all_the_way() {
+        let bodies = bodies();
         let config = config(View::White, Orientation::White, [150, 100]);
-        let at_rest = pinhole(&config, MAN, Reach::default());
-        let orbits = pinhole(&config, MAN, Reach { moves: false, orbit: 90.0 });
+        let at_rest = pinhole(&config, room(&bodies), Reach::default());
+        let orbits = pinhole(&config, room(&bodies), Reach { orbit: 90.0, ..Reach::default() });
         let most = |camera: &Camera| {
             let corner = |turn: u32| {
                 let camera = camera.orbited(MIDDLE, f64::from(turn));
@@ -226,9 +245,10 @@ mod tests {
 
     #[test]
     fn blacks_orientation_is_half_a_turn() {
+        let bodies = bodies();
         for (name, view) in VIEWS {
             let [white, black] = [Orientation::White, Orientation::Black].map(|orientation| {
-                pinhole(&config(view, orientation, [150, 100]), MAN, Reach::default())
+                pinhole(&config(view, orientation, [150, 100]), room(&bodies), Reach::default())
             });
             let turned = white.orbited(MIDDLE, 180.0);
             assert!(turned.position().distance(black.position()) < 1e-9, "{name}");

@@ -5,8 +5,15 @@ use super::bodies::Bodies;
 use super::pieces::{Mover, Spot, Taken};
 use crate::notation::{Color, Role};
 
-/// Between the board's frame and a column, and between pieces, in squares.
+/// Between the board's frame and a column, and between columns, in squares.
 const GAP: f64 = 0.1;
+
+/// Between two pieces of a column, in squares.
+const APART: f64 = 0.06;
+
+/// How far a column reaches beyond the board at its other end, in squares: so that all that a player can
+/// lose finds room in one.
+const BEYOND: f64 = 0.5;
 
 /// All of a player's pieces that can be captured.
 const ARMY: [Role; 15] = [
@@ -46,12 +53,12 @@ impl Tray<'_> {
     /// The place of the next piece.
     pub fn next(&mut self, role: Role) -> Spot {
         let radius = self.bodies.of(role).radius();
-        let length = 2.0 * self.bodies.edge;
+        let length = 2.0 * self.bodies.edge + BEYOND;
         if self.filled > 0.0 && self.filled + 2.0 * radius > length {
             (self.column, self.filled) = (self.column + 1, 0.0);
         }
         let along = self.filled + radius - self.bodies.edge;
-        self.filled += 2.0 * radius + GAP;
+        self.filled += 2.0 * radius + APART;
         let beside = self.bodies.edge + GAP + (f64::from(self.column) + 0.5) * width(self.bodies);
         // As the player has it who took the piece: his right, and away from him.
         let side = self.color.fold_wb(-1.0, 1.0);
@@ -86,11 +93,13 @@ fn width(bodies: &Bodies) -> f64 {
     2.0 * bodies.envelopes[..5].iter().map(|envelope| envelope.radius()).fold(0.0, f64::max) + GAP
 }
 
-/// How far the columns of all pieces that a player has at first reach from the board's middle, in squares.
-pub fn reach(bodies: &Bodies) -> f64 {
+/// How far the places of all pieces that a player has at first reach from the board's middle, in squares: to
+/// the side, and along the board.
+pub fn reach(bodies: &Bodies) -> [f64; 2] {
     let mut tray = Tray::new(bodies, Color::White);
     for role in ARMY {
         tray.next(role);
     }
-    bodies.edge + GAP + f64::from(tray.column + 1) * width(bodies)
+    let columns = f64::from(tray.column + 1);
+    [bodies.edge + GAP + columns * width(bodies), bodies.edge + BEYOND]
 }
