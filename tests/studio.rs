@@ -65,7 +65,7 @@ fn a_piece_takes_its_grain_along() {
     let piece = frame.placement.get(square).unwrap();
     frame.placement.set(square, None);
     let spot = Spot { file: 4.0, rank: 2.3, height: 0.1 };
-    frame.movers = vec![Mover { piece, identity: square, spot }];
+    frame.movers = vec![Mover { piece, identity: square, spot, size: 1.0 }];
     assert_eq!(stage.scene(&frame).objects.last().unwrap().seed, at_home);
     let other = scene("8/8/8/8/8/8/3P4/8", |_| {});
     assert_ne!(other.objects.last().unwrap().seed, at_home);
