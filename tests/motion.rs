@@ -322,8 +322,8 @@ fn a_pawn_gives_way_to_what_it_becomes() {
                 }
             }
         }
-        let (pawn, other): (Vec<(Role, f64)>, Vec<(Role, f64)>) =
-            sizes.iter().partition(|(role, _)| *role == Role::Pawn);
+        let (pawn, other): (Vec<_>, Vec<_>) =
+            sizes.iter().copied().partition(|(role, _): &(Role, f64)| *role == Role::Pawn);
         assert!(pawn.len() >= 2 && pawn.windows(2).all(|pair| pair[1].1 < pair[0].1), "{sizes:?}");
         assert!(
             other.len() >= 2 && other.windows(2).all(|pair| pair[1].1 > pair[0].1),
