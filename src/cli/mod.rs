@@ -13,7 +13,9 @@ use anyhow::bail;
 use clap::{Args, ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 use lightsquare::config::{Config, Look, Shading};
 use lightsquare::game::{Moment, Selection};
-use lightsquare::job::{BenchJob, DiagramJob, ExportJob, InspectJob, PictureSettings, RenderJob};
+use lightsquare::job::{
+    BenchJob, DiagramJob, ExportJob, InspectJob, Listing, PictureSettings, RenderJob,
+};
 use lightsquare::output::PictureFormat;
 
 use crate::progress::{ProgressMode, Verbosity};
@@ -107,7 +109,7 @@ pub enum Command {
     /// Render one position
     #[command(after_help = DIAGRAM_EXAMPLES)]
     Diagram(DiagramArgs),
-    /// Say what files hold: a line a game, or every position
+    /// Say what files hold: a line a game, every position, or what is said of the moves
     #[command(after_help = INSPECT_EXAMPLES)]
     Inspect(InspectArgs),
     /// Write the scene of one position for another renderer
@@ -138,7 +140,11 @@ Examples:
 const INSPECT_EXAMPLES: &str = "\
 Examples:
   lightsquare inspect games/*.pgn
-  lightsquare inspect games/opera-1858.pgn --positions | cut -f 4";
+  lightsquare inspect games/opera-1858.pgn --positions | cut -f 4
+  lightsquare inspect games/*.pgn --notes > notes.tsv
+
+In the table of --notes times are seconds, evals pawns or #moves to mate, and - is nothing; the main
+line's variation is -, others are named by the moves that begin them (12w-nf3/13b-e5).";
 
 const EXPORT_EXAMPLES: &str = "\
 Examples:
@@ -231,8 +237,12 @@ pub struct InspectArgs {
     #[arg(long, value_name = "GAMES")]
     select: Option<Selection>,
     /// A tab-separated row for every position: game, ply, san, white, black
-    #[arg(long)]
+    #[arg(long, conflicts_with = "notes")]
     positions: bool,
+    /// A tab-separated row for the start and every move, those of variations too, with what
+    /// comments and glyphs say: game, variation, ply, san, clk, emt, eval, csl, cal, nags
+    #[arg(long)]
+    notes: bool,
 }
 
 impl MessageArgs {
@@ -326,7 +336,12 @@ impl Command {
 
 impl InspectArgs {
     pub fn into_job(self) -> InspectJob {
-        InspectJob { inputs: self.inputs, selection: self.select, positions: self.positions }
+        let listing = match (self.positions, self.notes) {
+            (true, _) => Listing::Positions,
+            (_, true) => Listing::Notes,
+            _ => Listing::Games,
+        };
+        InspectJob { inputs: self.inputs, selection: self.select, listing }
     }
 }
 

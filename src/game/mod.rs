@@ -1,11 +1,15 @@
 //! Reading games: from PGN text to tags, a start position and legal moves.
 //!
-//! Three steps, each a file: `scan` cuts a stream into games and knows lines and tokens,
+//! Three steps: `scan` cuts a stream into games, each a main `line` of tokens with variations;
 //! `movetext` turns tokens into moves as written (with pgn-reader, and a tolerant reading of what
-//! it drops), `replay` plays them. What cannot be read becomes a [`Problem`] with its line and
+//! it drops); `replay` plays them. What comments and glyphs say becomes `notes`, on the way. What cannot be read becomes a [`Problem`] with its line and
 //! token; a game is shown up to its last good move, and the next game is read.
 
 mod bytes;
+mod clock;
+mod command;
+mod glyph;
+mod line;
 mod movetext;
 mod notes;
 mod replay;
@@ -13,12 +17,15 @@ mod scan;
 mod select;
 mod source;
 mod start;
+mod variation;
 mod word;
 
+pub use clock::Clocks;
 pub use notes::{Eval, Notes};
 pub use scan::{ScannedGame, Scanner};
 pub use select::{Absent, Moment, ParseMomentError, ParseSelectionError, Selection};
 pub use source::{Source, SourceError};
+pub use variation::Branch;
 pub use word::{printable, shortened};
 
 use shakmaty::fen::Fen;
@@ -89,10 +96,13 @@ pub struct Problem {
     pub loses_moves: bool,
 }
 
+/// How many characters of a token are kept in a problem.
+const LONGEST_TOKEN: usize = 80;
+
 impl Problem {
     /// A problem with a token that is made fit for print: no control characters, not too long.
     fn new(line: usize, token: &str, what: &str, loses_moves: bool) -> Problem {
-        let token = word::shortened(&word::printable(token), 80);
+        let token = word::shortened(&word::printable(token), LONGEST_TOKEN);
         Problem { line, token, what: what.to_owned(), loses_moves }
     }
 }

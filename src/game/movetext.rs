@@ -1,9 +1,9 @@
 //! From tokens to moves as they are written; whether they are legal is asked later.
 //!
-//! pgn-reader reads the cut game. It says nothing of words that it drops (`b8Q`, `e2-e4`, `o-o`,
+//! pgn-reader reads the cut line. It says nothing of words that it drops (`b8Q`, `e2-e4`, `o-o`,
 //! a castling with other hyphens), so its moves are held against the scanner's tokens: a token
 //! that it dropped gets a tolerant reading here, and a move of which the scanner knows nothing
-//! ends the game.
+//! ends the line.
 
 use std::ops::ControlFlow;
 
@@ -12,7 +12,7 @@ use shakmaty::Role;
 use shakmaty::san::San;
 use shakmaty::uci::UciMove;
 
-use super::scan::Token;
+use super::line::Token;
 use super::word::{ascii_dashes, is_null};
 
 /// What a token may mean.
@@ -33,11 +33,11 @@ pub struct Reading {
     pub is_certain: bool,
 }
 
-/// Reads all tokens, and holds them against what pgn-reader reads in the whole movetext.
+/// Reads the tokens of a line, and holds them against what pgn-reader reads in its text.
 pub fn read(tokens: &[Token], movetext: &[u8]) -> Reading {
     let mut written: Vec<Written> = tokens.iter().map(|token| tolerant(&token.text)).collect();
     let mut reached = 0;
-    for san in main_line(movetext) {
+    for san in moves(movetext) {
         let same = |written: &Written| written.san.as_ref() == Some(&san);
         match written[reached..].iter().position(same) {
             Some(skipped) => reached += skipped + 1,
@@ -50,15 +50,15 @@ pub fn read(tokens: &[Token], movetext: &[u8]) -> Reading {
     Reading { written, is_certain: true }
 }
 
-/// The moves of the main line, as pgn-reader sees them.
-fn main_line(movetext: &[u8]) -> Vec<San> {
-    let read = Reader::new(movetext).read_game(&mut MainLine);
+/// The moves of a line, as pgn-reader sees them.
+fn moves(movetext: &[u8]) -> Vec<San> {
+    let read = Reader::new(movetext).read_game(&mut Moves);
     read.ok().flatten().unwrap_or_default()
 }
 
-struct MainLine;
+struct Moves;
 
-impl Visitor for MainLine {
+impl Visitor for Moves {
     type Tags = ();
     type Movetext = Vec<San>;
     type Output = Vec<San>;

@@ -1,59 +1,113 @@
-//! Plays the moves of a scanned game, as far as they can be played.
+//! Plays the moves of a scanned game and its variations, as far as they can be played.
 
 use shakmaty::san::{SanError, SanPlus};
 use shakmaty::{Chess, Color, Move, Position, Setup};
 
+use super::line::{Line, Token};
 use super::movetext::{self, Reading, Written, tolerant};
-use super::scan::Token;
 use super::word::ascii_dashes;
-use super::{Game, Notes, Ply, Problem, ScannedGame, start, tag};
+use super::{Game, Notes, Ply, Problem, ScannedGame, Variation, start, tag};
 
 /// Replays `scanned`, the game of that number in its file.
 pub fn replay(scanned: ScannedGame, number: usize) -> Game {
-    let mut problems = scanned.problems;
-    let mut plies = Vec::new();
-    let from_fen = tag(&scanned.tags, "FEN").is_some();
-    let first = scanned.tokens.first();
-    let start = match (start::setup(&scanned.tags), first) {
-        _ if scanned.start_is_lost => None,
+    let ScannedGame { line, tags, unread_tags, start_is_lost, mut main, .. } = scanned;
+    let from_fen = tag(&tags, "FEN").is_some();
+    let first = main.tokens.first();
+    let start = match (start::setup(&tags), first) {
+        _ if start_is_lost => None,
         (Ok(_), Some(first)) if !from_fen && first.number.is_some_and(|number| number != 1) => {
             let what = "goes on with a game whose beginning is not known";
-            problems.push(Problem::new(first.line, &first.text, what, true));
+            main.problems.push(Problem::new(first.line, &first.text, what, true));
             None
         }
         (Ok(setup), _) => Some(setup),
         (Err(refusal), _) => {
-            problems.push(Problem::new(scanned.line, &refusal.token, &refusal.what, true));
+            main.problems.push(Problem::new(line, &refusal.token, &refusal.what, true));
             None
         }
     };
-    if let Some(setup) = &start {
-        match (scanned.tokens.first(), start::position(setup)) {
-            (Some(first), Err(error)) => {
-                let what = format!("cannot be played from the FEN: {error}");
-                problems.push(Problem::new(first.line, &first.text, &what, true));
-            }
-            (_, Ok(position)) => {
-                let reading = movetext::read(&scanned.tokens, &scanned.movetext);
-                problems.extend(play(position, &scanned.tokens, &reading, &mut plies));
-            }
-            (None, Err(_)) => {}
+    let start_notes = main.notes.take().map(|notes| *notes).unwrap_or_default();
+    let result = main.result.or_else(|| tag(&tags, "Result")).unwrap_or("*").to_owned();
+    let played = match start.as_ref().map(start::position) {
+        Some(Ok(position)) => {
+            let shift = numbering_shift(&position, &main.tokens);
+            Played::of(main, &position, 0, shift)
         }
-    }
+        Some(Err(error)) => Played::nothing(main, &error),
+        None => Played { problems: main.problems, ..Played::default() },
+    };
+    let Played { plies, variations, mut problems } = played;
     problems.sort_by_key(|problem| problem.line);
-    let result = scanned.result.or_else(|| tag(&scanned.tags, "Result")).unwrap_or("*").to_owned();
     Game {
         number,
-        line: scanned.line,
-        tags: scanned.tags,
-        unread_tags: scanned.unread_tags,
+        line,
+        tags,
+        unread_tags,
         start_is_known: start.is_some(),
         start: start.unwrap_or_else(Setup::empty),
-        start_notes: Notes::default(),
+        start_notes,
         plies,
-        variations: Vec::new(),
+        variations,
         result,
         problems,
+    }
+}
+
+/// What could be played of a line.
+#[derive(Default)]
+struct Played {
+    plies: Vec<Ply>,
+    variations: Vec<Variation>,
+    problems: Vec<Problem>,
+}
+
+impl Played {
+    /// Plays `line` and its variations from `start`, which is `ply` half-moves from the game's
+    /// start. Its numbers are `shift` ahead of the position's. Calls itself as deep as variations
+    /// lie within each other, which the scanner bounds.
+    fn of(line: Line, start: &Chess, ply: usize, shift: i64) -> Played {
+        let Line { mut tokens, movetext, variations, mut problems, .. } = line;
+        let reading = movetext::read(&tokens, &movetext);
+        let mut plies = Vec::new();
+        problems.extend(play(start.clone(), &tokens, &reading, shift, &mut plies));
+        for (ply, token) in plies.iter_mut().zip(&mut tokens) {
+            ply.notes = token.notes.take().map(|notes| *notes).unwrap_or_default();
+        }
+        // Behind the last good move it is not known what a variation would replace.
+        let (attached, left_out): (Vec<_>, Vec<_>) =
+            variations.into_iter().partition(|variation| variation.replaces < plies.len());
+        if let Some(first) = left_out.first() {
+            let what = match left_out.len() {
+                1 => "opens a variation behind the last good move; it is left out".to_owned(),
+                n => format!(
+                    "opens the first of {n} variations behind the last good move; they are left out"
+                ),
+            };
+            problems.push(Problem::new(first.opened, "(", &what, false));
+        }
+        let variations = attached
+            .into_iter()
+            .map(|variation| {
+                let index = variation.replaces;
+                let before = index.checked_sub(1).map_or(start, |index| &plies[index].after);
+                let ply = ply + index;
+                let Played { plies, variations, mut problems } =
+                    Played::of(variation.line, before, ply, shift);
+                problems.sort_by_key(|problem| problem.line);
+                Variation { ply, plies, variations, problems }
+            })
+            .collect();
+        Played { plies, variations, problems }
+    }
+
+    /// Plays nothing, since there is no position to play from.
+    fn nothing(line: Line, error: &str) -> Played {
+        let mut problems = line.problems;
+        if let Some(first) = line.tokens.first() {
+            let what = format!("cannot be played from the FEN: {error}");
+            problems.push(Problem::new(first.line, &first.text, &what, true));
+        }
+        Played { problems, ..Played::default() }
     }
 }
 
@@ -63,9 +117,9 @@ fn play(
     mut position: Chess,
     tokens: &[Token],
     reading: &Reading,
+    shift: i64,
     plies: &mut Vec<Ply>,
 ) -> Option<Problem> {
-    let shift = numbering_shift(&position, tokens);
     let mut certain = 0;
     for (index, token) in tokens.iter().enumerate() {
         let stop = |what: &str| Some(Problem::new(token.line, &token.text, what, true));

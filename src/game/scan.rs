@@ -10,6 +10,7 @@ use std::io::{self, BufRead};
 use std::mem;
 
 use super::bytes::Bytes;
+use super::line::{Line, ScannedVariation};
 use super::word::{Word, classify, decoded, is_harmless, parse_tag};
 use super::{Problem, movetext};
 
@@ -24,47 +25,14 @@ pub struct ScannedGame {
     pub unread_tags: Vec<String>,
     /// Whether a tag that says where the game starts could not be read.
     pub start_is_lost: bool,
-    /// What may be moves of the main line, without move numbers and glyphs.
-    pub tokens: Vec<Token>,
-    /// The whole movetext, comments and variations too, on one line: what pgn-reader is given.
-    pub movetext: Vec<u8>,
-    pub result: Option<&'static str>,
-    pub problems: Vec<Problem>,
-    /// Lines of the variations that are open, from the outermost.
-    open_variations: Vec<usize>,
+    /// The moves that were played, and the variations of them.
+    pub main: Line,
+    /// The variations that are open, from the outermost.
+    open: Vec<ScannedVariation>,
+    /// How many more are open, too deep to be kept.
+    deeper: usize,
     /// Whether a blank line or a comment came after the last tag.
     gap: bool,
-    /// What stands before the next token.
-    before: Before,
-}
-
-/// A word of the movetext that may be a move, or that hides one.
-#[derive(Debug, Default, PartialEq, Eq)]
-pub struct Token {
-    pub line: usize,
-    pub text: String,
-    /// The move number directly before it.
-    pub number: Option<u32>,
-    /// Whether dots before it say that it is Black's.
-    pub is_blacks: bool,
-    /// A lone letter before it: a remark, or its piece.
-    pub letter: Option<char>,
-    /// Why the game cannot go on here, as a clause after the text.
-    pub fault: Option<&'static str>,
-}
-
-impl Token {
-    /// Whether it is written as a move.
-    fn is_move(&self) -> bool {
-        self.fault.is_none() && movetext::is_move(&self.text)
-    }
-}
-
-#[derive(Debug, Default)]
-struct Before {
-    number: Option<u32>,
-    dots: bool,
-    letter: Option<char>,
 }
 
 /// Gives the games of a stream one after the other.
@@ -82,6 +50,9 @@ enum Next {
     SameGame,
     NewGame,
 }
+
+/// How deep variations may lie within each other; what lies deeper is left out.
+const DEEPEST: usize = 32;
 
 /// Tags that begin a section; one of them within a comment shows that a brace was forgotten.
 const FIRST_TAGS: [&str; 10] =
@@ -120,8 +91,11 @@ impl<R: BufRead> Scanner<R> {
                 b'[' => self.bracket(&mut game)?,
                 b'{' => self.comment(&mut game)?,
                 b';' => {
+                    let line = self.bytes.line;
                     let text = self.bytes.rest_of_line()?;
-                    self.comment_text(&mut game, &text[1..]);
+                    if let Some(game) = &mut game {
+                        game.comment(line, &text[1..]);
+                    }
                     continue;
                 }
                 b'(' | b')' => self.variation(&mut game)?,
@@ -151,8 +125,9 @@ impl<R: BufRead> Scanner<R> {
             Some((name, value)) if in_place => return Ok(self.tag(game, line, name, value)),
             None if in_place && !is_harmless(&raw) => {
                 // After moves it is not yet clear whether the next game begins here.
-                self.stray_tags.push((line, raw));
                 let game = game.get_or_insert_with(|| ScannedGame::at(line));
+                game.stop_variations(line, &raw, "is no move");
+                self.stray_tags.push((line, raw));
                 if !game.has_moves() && !game.has_ended() {
                     game.take_stray(&mut self.stray_tags);
                 }
@@ -215,7 +190,9 @@ impl<R: BufRead> Scanner<R> {
                         // Either this comment or the one within it was never closed.
                         game.stop(opened, "{", "opens a comment with another one in it");
                     }
-                    self.comment_text(game, &text);
+                    if let Some(game) = game {
+                        game.comment(opened, &text);
+                    }
                     return Ok(Next::SameGame);
                 }
                 Some(b'\n') => {
@@ -227,7 +204,7 @@ impl<R: BufRead> Scanner<R> {
                         self.begun = Some(self.first_tag(line, name, value));
                         break;
                     }
-                    text.push(b' ');
+                    text.push(b'\n');
                     line_start = text.len();
                 }
                 Some(byte) => text.push(byte),
@@ -240,38 +217,24 @@ impl<R: BufRead> Scanner<R> {
         let what = "opens a comment that is never closed";
         let problem = Problem::new(opened, "{", what, hides_moves);
         match self.begun.as_mut().filter(|_| game.is_none()) {
-            Some(begun) => begun.problems.push(problem),
-            None => game.get_or_insert_with(|| ScannedGame::at(opened)).problems.push(problem),
+            Some(begun) => begun.main.problems.push(problem),
+            None => {
+                game.get_or_insert_with(|| ScannedGame::at(opened)).main.problems.push(problem);
+            }
         }
         Ok(if self.begun.is_some() { Next::NewGame } else { Next::SameGame })
     }
 
-    fn comment_text(&mut self, game: &mut Option<ScannedGame>, text: &[u8]) {
-        if let Some(game) = game {
-            game.gap = true;
-            game.movetext.push(b'{');
-            game.movetext.extend(text.iter().filter(|byte| !b"{}\r\n".contains(byte)));
-            game.movetext.extend(b"} ");
-        }
-    }
-
+    /// Reads a bracket that opens or closes a variation.
     fn variation(&mut self, game: &mut Option<ScannedGame>) -> io::Result<Next> {
         let line = self.bytes.line;
-        let Some(byte) = self.bytes.bump()? else {
-            return Ok(Next::SameGame);
-        };
+        let opens = self.bytes.bump()? == Some(b'(');
         let game = self.current(game, line);
-        if byte == b'(' {
-            if game.tokens.is_empty() {
-                game.stop(line, "(", "opens a variation before any move");
-            }
-            game.open_variations.push(line);
-        } else if game.open_variations.pop().is_none() {
-            // What came before may have been a variation: nothing after it is certain.
-            game.stop(line, ")", "closes nothing");
-            return Ok(Next::SameGame);
+        if opens {
+            game.open_variation(line);
+        } else {
+            game.close_variation(line);
         }
-        game.movetext.extend([byte, b' ']);
         Ok(Next::SameGame)
     }
 
@@ -297,8 +260,11 @@ impl<R: BufRead> Scanner<R> {
             self.bytes.at_line_start = at_line_start;
             return Ok(Next::SameGame);
         }
-        if let Some(game) = game.as_mut().filter(|game| !game.open_variations.is_empty()) {
-            game.keep(text);
+        if let Some(game) = game.as_mut().filter(|game| !game.open.is_empty()) {
+            if game.deeper == 0 {
+                let words = text.split_whitespace().flat_map(classify);
+                game.innermost().take(line, text, words);
+            }
             return Ok(Next::SameGame);
         }
         // Blanks that are not ASCII (a no-break space) may stand within.
@@ -312,8 +278,8 @@ impl<R: BufRead> Scanner<R> {
         };
         let from_one = matches!(words.first(), Some(Word::Number { number: 1, dots: 1 }));
         let begins = |game: &ScannedGame| {
-            let again = from_one && at_line_start && game.before.number.is_none();
-            game.has_ended() && goes_on() || again && game.tokens.len() > 1
+            let again = from_one && at_line_start && !game.main.awaits_a_move();
+            game.has_ended() && goes_on() || again && game.main.tokens.len() > 1
         };
         if game.as_ref().is_some_and(begins) {
             let mut next = ScannedGame::at(line);
@@ -321,10 +287,10 @@ impl<R: BufRead> Scanner<R> {
             if !at_line_start && !matches!(words.first(), Some(Word::Number { .. })) {
                 // In the middle of a line they may go on with the game that seemed to end.
                 let what = "goes on behind a result";
-                next.problems.push(Problem::new(line, text, what, true));
+                next.main.problems.push(Problem::new(line, text, what, true));
                 next.start_is_lost = true;
             }
-            next.take(line, text, words);
+            next.main.take(line, text, words);
             self.begun = Some(next);
             return Ok(Next::NewGame);
         }
@@ -332,7 +298,7 @@ impl<R: BufRead> Scanner<R> {
         if game.is_none() && matches!(words[..], [Word::Result(_)]) {
             return Ok(Next::SameGame);
         }
-        self.current(game, line).take(line, text, words);
+        self.current(game, line).main.take(line, text, words);
         Ok(Next::SameGame)
     }
 }
@@ -355,34 +321,67 @@ impl ScannedGame {
         self.tags.is_empty()
             && self.unread_tags.is_empty()
             && !self.has_ended()
-            && self.tokens.iter().all(|token| token.number.is_none() && !token.is_move())
+            && self.main.tokens.iter().all(|token| token.number.is_none() && !token.is_move())
     }
 
     fn has_moves(&self) -> bool {
-        !self.tokens.is_empty() || !self.open_variations.is_empty()
+        !self.main.tokens.is_empty() || !self.open.is_empty()
     }
 
     fn has_ended(&self) -> bool {
-        self.result.is_some()
+        self.main.result.is_some()
     }
 
-    /// Notes something that hides no move.
-    fn remark(&mut self, line: usize, token: &str, what: &str) {
-        let problem = Problem::new(line, token, what, false);
-        let known =
-            self.problems.iter().any(|known| known.token == problem.token && known.what == what);
-        if !known {
-            self.problems.push(problem);
+    /// The line that the text is in: the main line, or the innermost variation that is kept.
+    fn innermost(&mut self) -> &mut Line {
+        match self.open.last_mut() {
+            Some(variation) => &mut variation.line,
+            None => &mut self.main,
         }
     }
 
-    /// Adds a token at which the game cannot go on; behind the result there is nothing to lose.
+    /// Ends the main line at something that may hide a move, and the variations that are open.
     fn stop(&mut self, line: usize, text: &str, fault: &'static str) {
-        if self.has_ended() {
-            self.remark(line, text, fault);
+        self.main.stop(line, text, fault);
+        self.stop_variations(line, text, fault);
+    }
+
+    fn stop_variations(&mut self, line: usize, text: &str, fault: &'static str) {
+        for variation in &mut self.open {
+            variation.line.stop(line, text, fault);
+        }
+    }
+
+    fn comment(&mut self, line: usize, text: &[u8]) {
+        self.gap = true;
+        if self.deeper == 0 {
+            self.innermost().comment(line, text);
+        }
+    }
+
+    fn open_variation(&mut self, line: usize) {
+        if self.open.len() == DEEPEST {
+            let what = "opens a variation that lies too deep in others; it is left out";
+            self.innermost().remark(line, "(", what);
+            self.deeper += 1;
+            return;
+        }
+        let parent = self.innermost();
+        if parent.tokens.is_empty() {
+            parent.stop(line, "(", "opens a variation before any move");
+        }
+        let variation = parent.variation(line);
+        self.open.push(variation);
+    }
+
+    fn close_variation(&mut self, line: usize) {
+        if self.deeper > 0 {
+            self.deeper -= 1;
+        } else if let Some(closed) = self.open.pop() {
+            self.innermost().add(closed);
         } else {
-            let text = text.to_owned();
-            self.tokens.push(Token { line, text, fault: Some(fault), ..Token::default() });
+            // What came before may have been a variation: nothing after it is certain.
+            self.main.stop(line, ")", "closes nothing");
         }
     }
 
@@ -394,10 +393,10 @@ impl ScannedGame {
                 let raw = format!("[{name} \"{value}\"]");
                 if says_start(&name) && first != value {
                     let what = "says something else than the tag of that name before it";
-                    self.problems.push(Problem::new(line, &raw, what, true));
+                    self.main.problems.push(Problem::new(line, &raw, what, true));
                     self.start_is_lost = true;
                 } else {
-                    self.remark(line, &raw, "repeats a tag; the first one counts");
+                    self.main.remark(line, &raw, "repeats a tag; the first one counts");
                 }
             }
         }
@@ -414,7 +413,7 @@ impl ScannedGame {
             }
             let says_start = says_start(&raw) || raw.matches('/').count() >= 7;
             self.start_is_lost |= says_start;
-            self.problems.push(Problem::new(line, &raw, what, says_start));
+            self.main.problems.push(Problem::new(line, &raw, what, says_start));
             self.unread_tags.push(raw);
         }
     }
@@ -422,64 +421,19 @@ impl ScannedGame {
     fn bracketed(&mut self, line: usize, raw: &str) {
         let mut words = raw.split([' ', '\t', ']', ',']);
         if is_harmless(raw) && !words.any(movetext::is_move) {
-            self.remark(line, raw, "is no move");
+            self.main.remark(line, raw, "is no move");
         } else {
             self.stop(line, raw, "may hide moves");
         }
     }
 
-    fn keep(&mut self, text: &str) {
-        self.movetext.extend(text.bytes().filter(|byte| *byte != b'['));
-        self.movetext.push(b' ');
-    }
-
-    fn take(&mut self, line: usize, text: &str, words: Vec<Word>) {
-        self.keep(text);
-        for word in words {
-            match word {
-                Word::Number { number, dots } => {
-                    let twice = self.before.number.is_some();
-                    self.before = Before { number: Some(number), dots: dots > 1, letter: None };
-                    if twice {
-                        self.stop(line, text, "is a second number without a move between");
-                    }
-                }
-                Word::Dots(dots) => self.before.dots |= dots > 1,
-                Word::Result(result) => match self.result {
-                    Some(known) if known != result => {
-                        self.remark(line, text, "is a second result; the first one counts");
-                    }
-                    _ => self.result = Some(result),
-                },
-                Word::Move(text) if self.has_ended() => self.remark(line, &text, "is no move"),
-                Word::Move(text) => self.token(line, text),
-                Word::Annotation => {}
-                Word::Letter(letter @ ('N' | 'D')) if self.before.number.is_none() => {
-                    self.remark(line, text, "is no move");
-                    self.before.letter = Some(letter);
-                }
-                Word::Letter(_) | Word::Unknown => self.stop(line, text, "is no move"),
-            }
-        }
-    }
-
-    fn token(&mut self, line: usize, text: String) {
-        let before = mem::take(&mut self.before);
-        self.tokens.push(Token {
-            line,
-            text,
-            number: before.number,
-            is_blacks: before.dots,
-            letter: before.letter,
-            fault: None,
-        });
-    }
-
     fn closed(mut self) -> ScannedGame {
-        if let Some(&line) = self.open_variations.first() {
+        // It is not known where they end; so nothing of them is kept.
+        if let Some(outermost) = self.open.first() {
             let what = "opens a variation that is never closed";
-            self.problems.push(Problem::new(line, "(", what, true));
+            self.main.problems.push(Problem::new(outermost.opened, "(", what, true));
         }
+        self.open.clear();
         self
     }
 }

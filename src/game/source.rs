@@ -110,9 +110,9 @@ impl Iterator for Games {
             };
             if scanned.is_no_game() {
                 let what = "begins a text that is no game";
-                let first = scanned.tokens.first();
+                let first = scanned.main.tokens.first();
                 self.strays.extend(first.map(|t| Problem::new(t.line, &t.text, what, false)));
-                self.strays.extend(scanned.problems);
+                self.strays.extend(scanned.main.problems);
                 continue;
             }
             self.number += 1;

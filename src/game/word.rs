@@ -5,6 +5,8 @@
 
 use encoding_rs::WINDOWS_1252;
 
+use super::glyph;
+
 /// What a word of the main line is.
 #[derive(Debug, PartialEq, Eq)]
 pub enum Word {
@@ -18,8 +20,9 @@ pub enum Word {
     Result(&'static str),
     /// What may be a move.
     Move(String),
-    /// A glyph, an evaluation, `e.p.`: it says nothing about the moves.
-    Annotation,
+    /// A glyph, an evaluation, `e.p.`: it says nothing about the moves. With the numbers of its
+    /// glyphs, as far as they have one.
+    Annotation(Vec<u8>),
     /// A single letter: a remark (`N` for a novelty), or a piece that was torn from its square.
     Letter(char),
     /// Nothing that belongs into a game.
@@ -45,34 +48,42 @@ pub fn classify(word: &str) -> impl Iterator<Item = Word> {
         Err(_) => Some(Word::Unknown),
     };
     let rest = if numbered { after } else { word };
-    number.into_iter().chain(unnumbered(rest))
+    number.into_iter().chain(unnumbered(rest).into_iter().flatten())
 }
 
-fn unnumbered(word: &str) -> Option<Word> {
+/// What a word is, and what is glued to it.
+fn unnumbered(word: &str) -> [Option<Word>; 2] {
     if word.is_empty() {
-        return None;
+        return [None, None];
     }
     if let Some(result) = result(word) {
-        return Some(Word::Result(result));
+        return [Some(Word::Result(result)), None];
+    }
+    if let Some(nag) = word.strip_prefix('$').and_then(|number| number.parse::<u32>().ok()) {
+        let known = u8::try_from(nag).ok().filter(|nag| *nag > 0);
+        return [Some(Word::Annotation(known.into_iter().collect())), None];
     }
     let bare = without_evaluation(word.trim_end_matches(GLYPHS)).trim_end_matches(GLYPHS);
     let alphanumerics = bare.chars().filter(|c| c.is_alphanumeric()).count();
-    let nag = word.strip_prefix('$').is_some_and(|n| n.parse::<u32>().is_ok());
-    Some(match alphanumerics {
-        _ if nag => Word::Annotation,
+    let word = match alphanumerics {
         _ if bare.eq_ignore_ascii_case("ep") || bare.eq_ignore_ascii_case("e.p") => {
-            Word::Annotation
+            Word::Annotation(Vec::new())
         }
         0 if is_null(bare) => Word::Move(bare.to_owned()),
         // Dashes alone stand for a move that is not there.
         0 if word.trim_matches(['-', '/', '=']).is_empty() && !word.contains('=') => Word::Unknown,
-        0 if word.chars().all(|c| SYMBOLS.contains(c)) => Word::Annotation,
+        0 if word.chars().all(|c| SYMBOLS.contains(c)) => Word::Annotation(glyph::numbers(word)),
         0 | 1 => match bare.as_bytes() {
             [letter @ b'A'..=b'Z'] => Word::Letter(char::from(*letter)),
             _ => Word::Unknown,
         },
-        _ => Word::Move(bare.to_owned()),
-    })
+        _ => {
+            let glued = glyph::numbers(&word[bare.len()..]);
+            let glued = (!glued.is_empty()).then_some(Word::Annotation(glued));
+            return [Some(Word::Move(bare.to_owned())), glued];
+        }
+    };
+    [Some(word), None]
 }
 
 const GLYPHS: [char; 3] = ['!', '?', '.'];
@@ -183,10 +194,11 @@ mod tests {
     fn words_are_told_apart() {
         let number = |number, dots| Word::Number { number, dots };
         let a_move = |text: &str| Word::Move(text.to_owned());
+        let glyphs = |numbers: &[u8]| Word::Annotation(numbers.to_vec());
         let cases = [
             ("12.", vec![number(12, 1)]),
             ("12", vec![number(12, 0)]),
-            ("1.e4!?", vec![number(1, 1), a_move("e4")]),
+            ("1.e4!?", vec![number(1, 1), a_move("e4"), glyphs(&[5])]),
             ("3...Nf6", vec![number(3, 3), a_move("Nf6")]),
             ("3…Nf6", vec![number(3, 3), a_move("Nf6")]),
             ("...Nf6", vec![Word::Dots(3), a_move("Nf6")]),
@@ -198,16 +210,17 @@ mod tests {
             ("1-0", vec![Word::Result("1-0")]),
             ("1–0.", vec![Word::Result("1-0")]),
             ("½", vec![Word::Result("1/2-1/2")]),
-            ("Nf3+-", vec![a_move("Nf3")]),
-            ("Nf3!?±", vec![a_move("Nf3")]),
+            ("Nf3+-", vec![a_move("Nf3"), glyphs(&[18])]),
+            ("Nf3!?±", vec![a_move("Nf3"), glyphs(&[5, 16])]),
             ("Nf3+", vec![a_move("Nf3+")]),
-            ("O-O=", vec![a_move("O-O")]),
-            ("+-", vec![Word::Annotation]),
-            ("=", vec![Word::Annotation]),
-            ("!?", vec![Word::Annotation]),
-            ("$12", vec![Word::Annotation]),
+            ("O-O=", vec![a_move("O-O"), glyphs(&[10])]),
+            ("+-", vec![glyphs(&[18])]),
+            ("=", vec![glyphs(&[10])]),
+            ("!?", vec![glyphs(&[5])]),
+            ("$12", vec![glyphs(&[12])]),
+            ("$300", vec![glyphs(&[])]),
             ("$", vec![Word::Unknown]),
-            ("e.p.", vec![Word::Annotation]),
+            ("e.p.", vec![glyphs(&[])]),
             ("N", vec![Word::Letter('N')]),
             ("♘", vec![Word::Unknown]),
             ("-", vec![Word::Unknown]),

@@ -1,10 +1,11 @@
-//! What a file holds: games, or all their positions.
+//! What a file holds: games, all their positions, or what is said of their moves.
 
+use std::fmt::Display;
 use std::io::Write;
 use std::path::PathBuf;
 
 use super::{JobError, Progress, say_missing, say_problems, shown};
-use crate::game::{Game, Selection, Source, shortened};
+use crate::game::{Eval, Game, Notes, Ply, Selection, Source, Variation, shortened};
 use crate::notation::Color;
 
 /// Which games to tell of, and how.
@@ -14,11 +15,33 @@ pub struct InspectJob {
     pub inputs: Vec<PathBuf>,
     /// All games when `None`.
     pub selection: Option<Selection>,
-    /// Every position as a tab-separated row, instead of a line a game.
-    pub positions: bool,
+    pub listing: Listing,
 }
 
-/// Writes one line a game, or one row a position under a header line a file. Gives the number of
+/// What is written of each game.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Listing {
+    /// One line, and one for each problem.
+    Games,
+    /// A tab-separated row for every position.
+    Positions,
+    /// A tab-separated row for the start and for every move, those of variations too, with what
+    /// comments and glyphs say.
+    Notes,
+}
+
+impl Listing {
+    /// The names of the columns, where there are any.
+    fn header(self) -> Option<&'static str> {
+        match self {
+            Listing::Games => None,
+            Listing::Positions => Some("game\tply\tsan\tfen\twhite\tblack"),
+            Listing::Notes => Some("game\tvariation\tply\tsan\tclk\temt\teval\tcsl\tcal\tnags"),
+        }
+    }
+}
+
+/// Writes what the job asks for; tables have a header line a file. Gives the number of
 /// games that could not be read whole.
 ///
 /// # Errors
@@ -32,8 +55,8 @@ pub fn inspect(
     for input in &job.inputs {
         let file = shown(input);
         let games = Source::open(input)?.games();
-        if job.positions {
-            writeln!(out, "game\tply\tsan\tfen\twhite\tblack").map_err(JobError::Write)?;
+        if let Some(header) = job.listing.header() {
+            writeln!(out, "{header}").map_err(JobError::Write)?;
         } else if job.inputs.len() > 1 {
             writeln!(out, "{file}").map_err(JobError::Write)?;
         }
@@ -46,11 +69,16 @@ pub fn inspect(
             }
             selected += 1;
             partial += usize::from(!game.is_whole());
-            let written = if job.positions {
+            if job.listing != Listing::Games {
                 say_problems(&file, &game, progress);
-                positions(&game, out)
-            } else {
-                line(&game, out)
+            }
+            let written = match job.listing {
+                Listing::Games => line(&game, out),
+                Listing::Positions => positions(&game, out),
+                Listing::Notes => {
+                    say_problems_of(&game.variations, &file, game.number, progress);
+                    notes(&game, out)
+                }
             };
             written.map_err(JobError::Write)?;
         }
@@ -92,4 +120,55 @@ fn positions(game: &Game, out: &mut dyn Write) -> std::io::Result<()> {
         writeln!(out, "{}\t{ply}\t{san}\t{fen}\t{white}\t{black}", game.number)?;
     }
     Ok(())
+}
+
+/// Tells what could not be read in variations.
+fn say_problems_of(variations: &[Variation], file: &str, number: usize, progress: &dyn Progress) {
+    for variation in variations {
+        for problem in &variation.problems {
+            progress.say(&format!("{file}: game {number}, in a variation, {problem}"));
+        }
+        say_problems_of(&variation.variations, file, number, progress);
+    }
+}
+
+fn notes(game: &Game, out: &mut dyn Write) -> std::io::Result<()> {
+    if !game.start_is_known {
+        return Ok(());
+    }
+    let number = game.number;
+    let mut row = |line: &str, ply: usize, san: &str, notes: &Notes| {
+        write!(out, "{number}\t{line}\t{ply}\t{san}")?;
+        let eval = notes.eval.map(|eval| match eval {
+            Eval::Pawns(pawns) => pawns.to_string(),
+            Eval::Mate(moves) => format!("#{moves}"),
+        });
+        let [clock, elapsed] =
+            [notes.clock, notes.elapsed].map(|seconds| seconds.map(|s| s.to_string()));
+        let marks = [list(&notes.circles), list(&notes.arrows), list(&notes.glyphs)];
+        for cell in [clock, elapsed, eval].into_iter().chain(marks) {
+            write!(out, "\t{}", cell.as_deref().unwrap_or("-"))?;
+        }
+        writeln!(out)
+    };
+    row("-", 0, "-", &game.start_notes)?;
+    for (ply, Ply { san, notes, .. }) in (1..).zip(&game.plies) {
+        row("-", ply, san, notes)?;
+    }
+    for branch in game.branches() {
+        let name = branch.names.join("/");
+        let Some(variation) = game.variation(&branch.path) else {
+            continue;
+        };
+        for (ply, Ply { san, notes, .. }) in (variation.ply + 1..).zip(&variation.plies) {
+            row(&name, ply, san, notes)?;
+        }
+    }
+    Ok(())
+}
+
+/// Several things in one cell; `None` for none.
+fn list<T: Display>(items: &[T]) -> Option<String> {
+    let items: Vec<String> = items.iter().map(T::to_string).collect();
+    (!items.is_empty()).then(|| items.join(","))
 }

@@ -16,7 +16,7 @@ mod subject;
 pub use bench::{BenchJob, Measurement, bench};
 pub use diagram::{DiagramJob, DiagramSummary, diagram};
 pub use export::{ExportJob, export};
-pub use inspect::{InspectJob, inspect};
+pub use inspect::{InspectJob, Listing, inspect};
 pub use render::{RenderJob, Summary, render};
 pub use script::Showing;
 pub use studio::PictureSettings;
