@@ -2,9 +2,9 @@
 
 use lightsquare::config::{Config, KeyFrame};
 use lightsquare::game::{Game, Scanner};
-use lightsquare::notation::Square;
+use lightsquare::notation::{Color, Square};
 use lightsquare::timeline::{
-    Camerawork, Card, Film, Frame, Lead, PathError, Pause, Script, Timeline,
+    Camerawork, Card, Dials, Film, Frame, Lead, PathError, Pause, Script, Timeline,
 };
 
 fn game(text: &str) -> Game {
@@ -258,4 +258,55 @@ fn a_real_pause_follows_the_moves_times() {
         let rests = frames.iter().filter(resting).count() as f64 / 100.0;
         assert!((rests - pause).abs() < 0.011, "{index}: {rests}");
     }
+}
+
+fn dials(game: &Game, script: Script) -> Vec<Dials> {
+    let script = Script { has_clock: true, ..script };
+    frames(&whole(game, &script)).into_iter().filter_map(|frame| frame.dials).collect()
+}
+
+#[test]
+fn the_clock_shows_what_is_left_and_runs_down_in_the_pause() {
+    let text = "[TimeControl \"60+2\"]\n[Result \"1-0\"]\n[Termination \"Time forfeit\"]\n\n\
+                1. e4 {[%clk 0:00:57]} e5 {[%clk 0:01:00]} 2. Nf3 {[%clk 0:00:39]} 1-0";
+    let game = game(text);
+    let times = |left: [u32; 2], running| Dials::Times { left: left.map(Some), running };
+    let (white, black) = (Some(Color::White), Some(Color::Black));
+    assert_eq!(
+        dials(&game, Script::default()),
+        [
+            times([60, 60], white),
+            times([57, 60], black),
+            times([57, 60], white),
+            times([39, 0], black),
+        ]
+    );
+    let shown = dials(&game, film());
+    let mut seconds: Vec<u32> = Vec::new();
+    for (index, dials) in shown.iter().enumerate() {
+        let Dials::Times { left: [Some(white), Some(_)], running } = dials else {
+            panic!("{index}: {dials:?}")
+        };
+        assert!(running.is_some(), "{index}");
+        seconds.push(*white);
+    }
+    seconds.dedup();
+    // White thinks 5 s and gets 2 back; 20 s in the second pause, and 2 back.
+    let expected: Vec<u32> = (55..=60).rev().chain((37..=57).rev()).chain([39]).collect();
+    assert!(seconds.iter().all(|second| expected.contains(second)), "{seconds:?}");
+    assert!(seconds.len() > 20, "{seconds:?}");
+    // Black's flag falls while the last position stands, and not before.
+    assert_eq!(shown.last(), Some(&times([39, 1], black)));
+    let film = Film { result: 1.0, ..Film::default() };
+    assert_eq!(
+        dials(&game, Script { film, animate: true, ..Script::default() }).last(),
+        Some(&times([39, 0], black))
+    );
+}
+
+#[test]
+fn without_times_the_clock_tells_the_move() {
+    let game = game("1. e4 e5 *");
+    let names = ["start", "1w", "1b"].map(|name| Dials::Moment(name.to_owned()));
+    assert_eq!(dials(&game, Script::default()), names);
 }

@@ -5,6 +5,7 @@
 
 mod bodies;
 mod camera;
+mod dials;
 mod film;
 mod flight;
 mod motion;
@@ -29,6 +30,7 @@ use crate::game::Game;
 use crate::notation::Placement;
 
 use camera::Track;
+use dials::Clock;
 use film::{Moment, Schedule, paced};
 use motion::Motion;
 use pieces::Position;
@@ -93,6 +95,8 @@ pub struct Script {
     pub bodies: Bodies,
     /// Whether captured pieces stay beside the board.
     pub keeps_captured: bool,
+    /// Whether frames say what a clock shows.
+    pub has_clock: bool,
 }
 
 /// All frames of a game, or of a part of it.
@@ -108,6 +112,7 @@ pub struct Timeline<'a> {
     /// What happens in each frame, where each position is one.
     stills: Vec<Moment>,
     track: Track,
+    clock: Option<Clock>,
 }
 
 impl<'a> Timeline<'a> {
@@ -133,6 +138,7 @@ impl<'a> Timeline<'a> {
             stills: stills(last - first, script.film),
             track: Track::new(&script.camerawork, game, [first, last], &schedule)?,
             schedule,
+            clock: script.has_clock.then(|| Clock::new(game, first, last)),
         };
         for ply in 0..=last {
             if ply > 0 {
@@ -168,7 +174,13 @@ impl<'a> Timeline<'a> {
         };
         let steps = self.frames().saturating_sub(1).max(1);
         let whole = index as f64 / steps as f64;
-        Frame { gaze: self.track.gaze(moment, time, whole), time, ..self.at(moment) }
+        let runs = self.script.animate;
+        Frame {
+            gaze: self.track.gaze(moment, time, whole),
+            dials: self.clock.as_ref().map(|clock| clock.dials(moment, runs)),
+            time,
+            ..self.at(moment)
+        }
     }
 
     fn at(&self, moment: Moment) -> Frame {
