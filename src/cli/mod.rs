@@ -176,6 +176,9 @@ pub struct RenderArgs {
     /// Last position, likewise, or end
     #[arg(long, value_name = "MOVE", default_value = "end")]
     to: Moment,
+    /// Render variations too, each in a folder of its own within its game's, named by its first move
+    #[arg(long, conflicts_with = "frames")]
+    variations: bool,
     #[command(flatten)]
     film: FilmArgs,
     #[command(flatten)]
@@ -266,6 +269,7 @@ impl RenderArgs {
             selection: self.select,
             from: self.from,
             to: self.to,
+            variations: self.variations,
             showing: self.film.showing(),
             frames: self.film.frames,
             picture: self.picture.settings(Look::default())?,

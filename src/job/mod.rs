@@ -3,6 +3,7 @@
 //! A job is given typed and checked settings, tells a [`Progress`] how far it is, and gives back
 //! a summary or its error. It writes where it is told to, and never prints.
 
+mod batch;
 mod bench;
 mod diagram;
 mod export;

@@ -1,17 +1,17 @@
 //! Whole games, as numbered pictures in folders.
 
-use std::ffi::OsStr;
 use std::fs;
-use std::ops::{Range, RangeInclusive};
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
-use super::report::{FrameRow, Manifest, ReportLine, Status, tags, texts};
+use super::batch::{Batch, Entry, Part, folder_names, game_folder, read_batch};
+use super::report::{FrameRow, Manifest, ReportLine, Status, VariationLine, tags, texts};
 use super::studio::{PictureSettings, Studio};
-use super::{JobError, MAX_FRAMES, Progress, Showing, say_missing, say_problems, shown};
-use crate::game::{Absent, Game, Moment, Problem, Selection, Source, printable, shortened};
+use super::{JobError, Progress, Showing};
+use crate::game::{Game, Moment, Selection, shortened};
 use crate::notation::Color;
 use crate::output::{
-    frame_name, manifest_name, prepare_folder, remove_frames, slug, write_json, write_json_lines,
+    frame_name, manifest_name, prepare_folder, remove_frames, write_json, write_json_lines,
     write_png,
 };
 use crate::timeline::{Script, Timeline};
@@ -29,6 +29,8 @@ pub struct RenderJob {
     /// The first position and the last one.
     pub from: Moment,
     pub to: Moment,
+    /// Whether variations are rendered too, each in a folder of its own within its game's.
+    pub variations: bool,
     pub showing: Showing,
     /// Which frames of each game, counted as in the whole; all when `None`.
     pub frames: Option<RangeInclusive<usize>>,
@@ -46,21 +48,6 @@ pub struct Summary {
     pub rays: RayCounts,
     /// Whether the job was told to stop.
     pub cancelled: bool,
-}
-
-/// A file of games, read and cut to what is wanted.
-struct Batch {
-    file: String,
-    folder: PathBuf,
-    games: Vec<(Game, Option<Part>)>,
-}
-
-/// The part of a game that is shown: its first and last position, in half-moves, and which of the frames
-/// between them.
-struct Part {
-    first: usize,
-    last: usize,
-    frames: Range<usize>,
 }
 
 /// Renders games into pictures; each gets a manifest, each file a report.
@@ -84,8 +71,7 @@ pub fn render(job: &RenderJob, progress: &dyn Progress) -> Result<Summary, JobEr
         keep_out(job, &batch.folder)?;
         prepare_folder(&batch.folder)?;
     }
-    let parts = batches.iter().flat_map(|batch| &batch.games).filter_map(|(_, part)| part.as_ref());
-    progress.begin(parts.map(|part| part.frames.len() as u64).sum());
+    progress.begin(batches.iter().flat_map(|batch| &batch.entries).map(Entry::frames).sum());
     for batch in &batches {
         if !run.summary.cancelled {
             run.batch(batch)?;
@@ -110,120 +96,6 @@ fn keep_out(job: &RenderJob, folder: &Path) -> Result<(), JobError> {
     }
 }
 
-/// One folder name a file: its own without the ending, with a number where that is taken.
-fn folder_names(inputs: &[PathBuf]) -> Vec<String> {
-    let mut names: Vec<String> = Vec::new();
-    for input in inputs {
-        let stem = input.file_stem().filter(|_| input != Path::new("-"));
-        let stem = stem.map_or("stdin".into(), OsStr::to_string_lossy);
-        // A name that leads elsewhere is none.
-        let stem = match stem.as_ref() {
-            "." | ".." => "games".to_owned(),
-            name => printable(name),
-        };
-        let numbered = (2..).map(|number| format!("{stem}-{number}"));
-        let free = std::iter::once(stem.clone()).chain(numbered).find(|name| !names.contains(name));
-        names.push(free.unwrap_or(stem));
-    }
-    names
-}
-
-fn read_batch(
-    job: &RenderJob,
-    script: &Script,
-    input: &Path,
-    folder: PathBuf,
-    progress: &dyn Progress,
-) -> Result<Batch, JobError> {
-    let file = shown(input);
-    let mut games = Vec::new();
-    let mut seen = 0;
-    for game in Source::open(input)?.games() {
-        let mut game = game?;
-        seen += 1;
-        if job.selection.as_ref().is_some_and(|selection| !selection.contains(game.number)) {
-            continue;
-        }
-        let span = span(job, &mut game);
-        say_problems(&file, &game, progress);
-        let part = span.map(|(first, last)| {
-            frames(job, script, &game, [first, last], &file).map(|frames| Part {
-                first,
-                last,
-                frames,
-            })
-        });
-        games.push((game, part.transpose()?));
-    }
-    if games.is_empty() {
-        return Err(JobError::NothingSelected { file, games: seen });
-    }
-    say_missing(&file, job.selection.as_ref(), seen, progress);
-    Ok(Batch { file, folder, games })
-}
-
-/// The frames to render of a game between two positions.
-fn frames(
-    job: &RenderJob,
-    script: &Script,
-    game: &Game,
-    [first, last]: [usize; 2],
-    file: &str,
-) -> Result<Range<usize>, JobError> {
-    let (file, number) = (file.to_owned(), game.number);
-    let frames = match Timeline::new(game, first, last, script) {
-        Ok(timeline) => timeline.frames(),
-        Err(error) => return Err(JobError::Path { file, game: number, error }),
-    };
-    if frames > MAX_FRAMES {
-        return Err(JobError::TooLong { file, game: number, frames });
-    }
-    match &job.frames {
-        None => Ok(0..frames),
-        Some(wanted) if *wanted.end() < frames => Ok(*wanted.start()..*wanted.end() + 1),
-        Some(wanted) => Err(JobError::NoSuchFrames {
-            file,
-            game: number,
-            last: frames - 1,
-            wanted: format!("{} to {}", wanted.start(), wanted.end()),
-        }),
-    }
-}
-
-/// The first and the last position to show of a game, in half-moves; why none is added to its problems.
-fn span(job: &RenderJob, game: &mut Game) -> Option<(usize, usize)> {
-    if !game.start_is_known {
-        return None;
-    }
-    let end = game.plies.len();
-    let first = job.from.ply(game).map_err(|absent| ("--from", job.from, absent));
-    let last = match job.to.ply(game) {
-        // A film that is to go on longer than the game ends with it.
-        Err(Absent::BehindTheEnd) => Ok(end),
-        other => other.map_err(|absent| ("--to", job.to, absent)),
-    };
-    let (flag, moment, clause) = match (first, last) {
-        (Ok(first), Ok(last)) if first <= last => {
-            return Some((first, last));
-        }
-        (Ok(_), Ok(last)) => ("--from", job.from, format!("is behind {}", game.moment_name(last))),
-        (Err((flag, moment, Absent::BeforeTheStart)), _)
-        | (_, Err((flag, moment, Absent::BeforeTheStart))) => {
-            (flag, moment, format!("is before the start, the first move is {}", game.first_move()))
-        }
-        (Err((flag, moment, _)), _) | (_, Err((flag, moment, _))) => {
-            (flag, moment, format!("is behind the end, {}", game.moment_name(end)))
-        }
-    };
-    game.problems.push(Problem {
-        line: game.line,
-        token: format!("{flag} {moment}"),
-        what: clause,
-        loses_moves: false,
-    });
-    None
-}
-
 /// A job under way.
 struct Run<'a> {
     job: &'a RenderJob,
@@ -238,21 +110,36 @@ impl Run<'_> {
     fn batch(&mut self, batch: &Batch) -> Result<(), JobError> {
         let mut report = Vec::new();
         let mut outcome = Ok(());
-        for (game, part) in &batch.games {
+        for entry in &batch.entries {
             if self.summary.cancelled || outcome.is_err() {
                 break;
             }
+            let Entry { game, part, variations } = entry;
             let Some(part) = part else {
                 self.summary.skipped += 1;
                 report.push(ReportLine::new(game, Status::Skipped, 0, None));
                 continue;
             };
             let name = game_folder(game);
+            let folder = batch.folder.join(&name);
             let before = self.summary.frames;
-            outcome = self.game(batch, &batch.folder.join(&name), game, part);
+            outcome = self.game(batch, &folder, game, part);
+            let mut is_whole = game.is_whole();
+            let mut lines = Vec::new();
+            for variation in variations {
+                if self.summary.cancelled || outcome.is_err() {
+                    break;
+                }
+                let Some(line) = game.with_variation(&variation.path) else { continue };
+                let before = self.summary.frames;
+                outcome = self.game(batch, &folder.join(&variation.folder), &line, &variation.part);
+                is_whole &= line.is_whole();
+                let frames = (self.summary.frames - before) as usize;
+                lines.push(VariationLine::new(&line, &variation.folder, frames));
+            }
             let status = match outcome {
                 Ok(()) if self.summary.cancelled => Status::Stopped,
-                Ok(()) if game.is_whole() => Status::Rendered,
+                Ok(()) if is_whole => Status::Rendered,
                 Ok(()) => Status::Partial,
                 Err(_) => Status::Stopped,
             };
@@ -261,7 +148,7 @@ impl Run<'_> {
                 _ => self.summary.partial += 1,
             }
             let frames = (self.summary.frames - before) as usize;
-            report.push(ReportLine::new(game, status, frames, Some(name)));
+            report.push(ReportLine::new(game, status, frames, Some(name)).with(lines));
         }
         let written = write_json_lines(&batch.folder.join("report.jsonl"), &report);
         outcome?;
@@ -319,15 +206,4 @@ impl Run<'_> {
         };
         Ok(write_json(&folder.join(manifest_name(self.job.frames.as_ref())), &manifest)?)
     }
-}
-
-/// `0001-morphy-paul-duke-karl`: the number, and the players as far as they are known.
-fn game_folder(game: &Game) -> String {
-    let mut name = format!("{:04}", game.number);
-    for (color, unknown) in [(Color::White, "white"), (Color::Black, "black")] {
-        let player = slug(game.player(color));
-        name.push('-');
-        name.push_str(if player.is_empty() { unknown } else { &player });
-    }
-    name
 }

@@ -1,5 +1,7 @@
 //! The records beside the pictures: `game.json` and the lines of `report.jsonl`.
 
+use std::path::Path;
+
 use serde::Serialize;
 use serde_json::{Map, Value};
 
@@ -38,6 +40,31 @@ pub struct ReportLine {
     /// The folder of the pictures, beside the report.
     folder: Option<String>,
     problems: Vec<Problem>,
+    /// Those that were rendered with it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    variations: Vec<VariationLine>,
+}
+
+/// A variation in the line of its game.
+#[derive(Serialize)]
+pub struct VariationLine {
+    /// The folder of the pictures, within the game's.
+    folder: String,
+    plies: usize,
+    frames: usize,
+    problems: Vec<Problem>,
+}
+
+impl VariationLine {
+    /// The line of a variation, which `line` has gone on with.
+    pub fn new(line: &Game, folder: &Path, frames: usize) -> VariationLine {
+        VariationLine {
+            folder: folder.to_string_lossy().into_owned(),
+            plies: line.plies.len(),
+            frames,
+            problems: line.problems.clone(),
+        }
+    }
 }
 
 impl ReportLine {
@@ -53,7 +80,13 @@ impl ReportLine {
             frames,
             folder,
             problems: game.problems.clone(),
+            variations: Vec::new(),
         }
+    }
+
+    /// This line with variations.
+    pub fn with(self, variations: Vec<VariationLine>) -> ReportLine {
+        ReportLine { variations, ..self }
     }
 }
 
