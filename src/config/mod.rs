@@ -7,6 +7,7 @@ mod checks;
 mod ini;
 mod keys;
 mod look;
+mod marks;
 mod material;
 mod model;
 mod nearest;
@@ -19,6 +20,7 @@ mod values;
 pub use camera::{Camera, ORIENTATIONS, Orientation, Pose, VIEWS, View};
 pub use keys::unknown;
 pub use look::Look;
+pub use marks::Marks;
 pub use material::{Axis, Coat, Finish, Mapping, Material, Texture};
 pub use model::{Model, Shape};
 pub use nearest::nearest;
@@ -62,6 +64,7 @@ pub struct Config {
     pub parts: Parts,
     /// Which way pieces look.
     pub knights: Knights,
+    pub marks: Marks,
     pub clock: Clock,
     pub models: Vec<Model>,
     /// By name, in small letters; every name that the other settings use is here.
@@ -192,12 +195,43 @@ pub enum Knights {
 /// The clock beside the board.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Clock {
-    pub show: bool,
-    /// What the two dials show, in seconds since twelve o'clock.
+    pub show: ShowClock,
+    /// What it shows of a game without times.
+    pub without_times: WithoutTimes,
+    /// What the two dials show where the times are fixed, in seconds since twelve o'clock.
     pub white: u32,
     pub black: u32,
     /// The material of its case, by name.
     pub case: String,
+}
+
+/// What the clock beside the board shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ShowClock {
+    /// There is none.
+    No,
+    /// The times of the settings.
+    Fixed,
+    /// Those of the game.
+    Game,
+}
+
+/// What a clock that shows the game's times shows where it has none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum WithoutTimes {
+    /// There is no clock.
+    Absent,
+    /// How many moves each player has made.
+    Moves,
+}
+
+impl Clock {
+    /// Whether pictures keep a place for it.
+    pub fn has_place(&self) -> bool {
+        self.show != ShowClock::No
+    }
 }
 
 impl Default for Config {
@@ -286,7 +320,7 @@ impl Config {
     /// The pictures of the materials that are used.
     pub fn bitmaps(&self) -> BTreeSet<&PathBuf> {
         let parts = self.parts_in_force();
-        let case = self.clock.show.then_some(&self.clock.case);
+        let case = self.clock.has_place().then_some(&self.clock.case);
         let used = parts.materials().map(|(_, name)| name).chain(case);
         used.chain(self.models.iter().map(|model| &model.material))
             .filter_map(|name| self.materials.get(name))

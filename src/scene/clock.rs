@@ -11,7 +11,7 @@ use super::{Mapping, Material, Object, Surface, Texture};
 use crate::assets::Bitmap;
 use crate::config::{self, Clock, Coat, Finish};
 use crate::geometry::transform::{sin_cos, translation};
-use crate::geometry::{Bounds, Cuboid, Placed};
+use crate::geometry::{Bounds, Cuboid};
 
 /// The case where it was made: on the table, on the side of the a-file.
 const CASE: Cuboid = Cuboid {
@@ -81,11 +81,8 @@ pub fn clock(
     };
     let case = materials.surface(&clock.case)?;
     let face = Surface::Uniform(Material { finish, coat: Coat::default(), texture });
-    Ok([(CASE, case), (plate, face)].map(|(solid, surface)| Object {
-        body: Placed::new(Arc::new(solid), place),
-        surface,
-        seed: 0,
-    }))
+    Ok([(CASE, case), (plate, face)]
+        .map(|(solid, surface)| Object::placed(Arc::new(solid), place, surface)))
 }
 
 /// What the clock fills at a [`place`].

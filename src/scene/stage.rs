@@ -10,11 +10,12 @@ use super::materials::{MaterialError, Materials};
 use super::measures::{MIDDLE, SQUARE};
 use super::models::model;
 use super::noise::hash;
+use super::paint::Paints;
 use super::{Camera, Object, Reach, Rgb, Room, Scene, Side, Surface, clock, view};
 use crate::assets::Assets;
 use crate::config::{Config, Light, Shading};
+use crate::geometry::Csg;
 use crate::geometry::transform::translation;
-use crate::geometry::{Csg, Placed};
 use crate::notation::{Color, Piece, Role, Square};
 use crate::timeline::{Frame, Spot};
 
@@ -41,8 +42,9 @@ pub struct Stage {
     pieces: [Arc<Csg>; 6],
     /// Of White's pieces, and of Black's.
     surfaces: [Surface; 2],
-    /// The board, the clock and the extra models.
+    /// The board, its squares first, the clock and the extra models.
     fixed: Vec<Object>,
+    paints: Paints,
     lights: Vec<Light>,
     camera: Camera,
     facing: Facing,
@@ -67,7 +69,7 @@ impl Stage {
         let camera = view::camera(config, view::extent(&set), reach);
         let camera = camera.ok_or(StageError::FocusBehind)?;
         let mut fixed = board(&scheme, &materials, Side::near(&camera))?;
-        if config.clock.show {
+        if config.clock.has_place() {
             fixed.extend(clock::clock(&config.clock, &materials, clock::place(camera.axes()[2]))?);
         }
         for settings in &config.models {
@@ -77,6 +79,7 @@ impl Stage {
             pieces: [set.pawn, set.knight, set.bishop, set.rook, set.queen, set.king].map(Arc::new),
             surfaces: [materials.surface(&scheme.white)?, materials.surface(&scheme.black)?],
             fixed,
+            paints: Paints::new(&materials),
             lights: config.lights.clone(),
             room: (config.render.shading == Shading::Studio).then(|| {
                 let turn = if config.room.turns { camera.azimuth() } else { 0.0 };
@@ -98,8 +101,12 @@ impl Stage {
         });
         let moving =
             frame.movers.iter().map(|mover| self.object(mover.piece, mover.identity, mover.spot));
+        let mut fixed = self.fixed.clone();
+        if let Some(squares) = fixed.first_mut() {
+            self.paints.paint(squares, &frame.marks, &frame.placement);
+        }
         Scene {
-            objects: self.fixed.iter().cloned().chain(standing).chain(moving).collect(),
+            objects: fixed.into_iter().chain(standing).chain(moving).collect(),
             lights: self.lights.clone(),
             camera: self.camera.orbited(MIDDLE, frame.gaze.orbit),
             background: self.background,
@@ -122,17 +129,12 @@ impl Stage {
             Role::King => 5,
         };
         let place = DVec3::new(spot.file, spot.height, spot.rank) * SQUARE + DVec3::Y * FELT;
-        Object {
-            body: Placed::new(
-                self.pieces[solid].clone(),
-                translation(place) * self.facing.turn(piece),
-            ),
-            surface: self.surfaces[match piece.color {
-                Color::White => 0,
-                Color::Black => 1,
-            }]
-            .clone(),
-            seed: if self.room.is_some() { hash(1, identity.to_usize() as u64) } else { 0 },
-        }
+        let place = translation(place) * self.facing.turn(piece);
+        let surface = &self.surfaces[match piece.color {
+            Color::White => 0,
+            Color::Black => 1,
+        }];
+        let seed = if self.room.is_some() { hash(1, identity.to_usize() as u64) } else { 0 };
+        Object { seed, ..Object::placed(self.pieces[solid].clone(), place, surface.clone()) }
     }
 }

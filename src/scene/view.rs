@@ -99,7 +99,7 @@ fn points(config: &Config, man: Bounds, reach: Reach, forward: DVec3) -> Vec<DVe
         Bounds { min: foot - half, max: foot + half + length + DVec3::Y * man.max.y }
     };
     let mut boxes = vec![board::bounds(), on(0.0, 0.0), on(7.0, 0.0)];
-    if config.clock.show {
+    if config.clock.has_place() {
         boxes.push(clock::bounds(&clock::place(forward)));
     }
     if reach.moves {
@@ -122,7 +122,7 @@ fn points(config: &Config, man: Bounds, reach: Reach, forward: DVec3) -> Vec<DVe
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::VIEWS;
+    use crate::config::{ShowClock, VIEWS};
     use crate::scene::Projection;
 
     /// As tall and wide as a king.
@@ -164,7 +164,7 @@ mod tests {
                 for size in [[90, 160], [100, 100], [150, 100], [160, 90]] {
                     for (reach, clock, point) in points {
                         let mut config = config(view, orientation, size);
-                        config.clock.show = clock;
+                        config.clock.show = if clock { ShowClock::Game } else { ShowClock::No };
                         let camera = pinhole(&config, MAN, reach);
                         let place = clock::place(camera.axes()[2]);
                         let point = if clock { place.transform_point3(point) } else { point };

@@ -3,6 +3,7 @@
 //! A [`Timeline`] gives frame `i` without the ones before it, so that any part of a film can be
 //! made alone. Times are seconds from the film's beginning.
 
+mod marks;
 mod motion;
 mod pieces;
 mod shown;
@@ -14,6 +15,7 @@ pub use shown::{Card, Dials, Gaze, Marks};
 use crate::game::Game;
 use crate::notation::Placement;
 
+use marks::marks;
 use motion::Motion;
 use pieces::Position;
 
@@ -102,6 +104,8 @@ impl Frame {
 /// All frames of a game, or of a part of it.
 pub struct Timeline {
     positions: Vec<Position>,
+    /// What the board tells of each position.
+    marks: Vec<Marks>,
     /// The motion from each position to the next.
     motions: Vec<Motion>,
     first_ply: usize,
@@ -117,6 +121,7 @@ impl Timeline {
         let mut position = Position::new(game.placement(0));
         let mut timeline = Timeline {
             positions: Vec::with_capacity(last + 1 - first),
+            marks: (first..=last).map(|ply| marks(game, ply)).collect(),
             motions: Vec::with_capacity(last - first),
             first_ply: first,
             film,
@@ -162,6 +167,7 @@ impl Timeline {
             time,
             ply: self.first_ply + moves,
             identities: position.identities,
+            marks: self.marks[moves].clone(),
             ..Frame::still(position.placement)
         }
     }
@@ -182,7 +188,8 @@ impl Timeline {
         if passed < 1.0 {
             let position = &self.positions[current];
             let (standing, movers) = self.motions[current].under_way(position, passed.max(0.0));
-            Frame { placement: standing, movers, ..self.at_rest(current, time) }
+            let marks = self.marks[current + 1].under_way();
+            Frame { placement: standing, movers, marks, ..self.at_rest(current, time) }
         } else {
             self.at_rest(current + 1, time)
         }
