@@ -47,10 +47,10 @@ impl Marks {
             last_move_color: DVec3::new(0.93, 0.76, 0.2),
             check_color: DVec3::new(0.86, 0.12, 0.1),
             mate_color: DVec3::new(0.62, 0.04, 0.1),
-            green: DVec3::new(0.2, 0.62, 0.26),
-            red: DVec3::new(0.72, 0.13, 0.11),
-            yellow: DVec3::new(0.96, 0.78, 0.16),
-            blue: DVec3::new(0.1, 0.25, 0.6),
+            green: DVec3::new(0.3, 0.7, 0.3),
+            red: DVec3::new(0.86, 0.17, 0.13),
+            yellow: DVec3::new(0.98, 0.82, 0.2),
+            blue: DVec3::new(0.06, 0.18, 0.52),
         }
     }
 }

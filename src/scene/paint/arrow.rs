@@ -5,11 +5,11 @@ use glam::DVec2;
 use super::FOOT;
 
 /// Half of the shaft's width.
-const HALF_SHAFT: f64 = 0.06;
+const HALF_SHAFT: f64 = 0.07;
 
 /// A head's length and half of its width.
-const HEAD: f64 = 0.3;
-const HALF_HEAD: f64 = 0.17;
+const HEAD: f64 = 0.33;
+const HALF_HEAD: f64 = 0.19;
 
 /// What remains free round a piece's foot.
 const FREE: f64 = 0.05;

@@ -28,8 +28,8 @@ const TOP: f64 = 1e-4;
 const HALF_DIAGONAL: f64 = 0.71;
 
 /// How wide the dark edge round an arrow or a ring is, and its share of the colour beneath.
-const EDGE: f64 = 0.018;
-const EDGE_OPACITY: f64 = 0.55;
+const EDGE: f64 = 0.02;
+const EDGE_OPACITY: f64 = 0.7;
 
 /// How much of a colour an edge has.
 const SHADE: f64 = 0.12;
@@ -152,11 +152,15 @@ impl Paints {
     }
 }
 
-/// A tint, and a line within the square's border, which is seen where the tint is not.
+/// A tint, and a dark line within the square's border: in greys a tinted dark square is a light one.
 fn last_move(middle: DVec2, color: Rgb) -> [Layer; 2] {
     [
         Layer { shape: Shape::Square { middle }, color, opacity: 0.5 },
-        Layer { shape: Shape::Frame { middle, to: 0.5, width: 0.05 }, color, opacity: 0.8 },
+        Layer {
+            shape: Shape::Frame { middle, to: 0.455, width: 0.028 },
+            color: color * SHADE,
+            opacity: EDGE_OPACITY,
+        },
     ]
 }
 
