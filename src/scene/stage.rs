@@ -5,13 +5,14 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::board::board;
+use super::clock::{self, Clock};
 use super::facing::Facing;
 use super::materials::{MaterialError, Materials};
 use super::measures::{MIDDLE, SQUARE};
 use super::models::model;
 use super::noise::hash;
 use super::paint::Paints;
-use super::{Camera, Object, Reach, Rgb, Room, Scene, Side, Surface, clock, view};
+use super::{Camera, Object, Reach, Rgb, Room, Scene, Side, Surface, view};
 use crate::assets::Assets;
 use crate::config::{Config, Light, Shading};
 use crate::geometry::Csg;
@@ -42,8 +43,9 @@ pub struct Stage {
     pieces: [Arc<Csg>; 6],
     /// Of White's pieces, and of Black's.
     surfaces: [Surface; 2],
-    /// The board, its squares first, the clock and the extra models.
+    /// The board, its squares first, and the extra models.
     fixed: Vec<Object>,
+    clock: Option<Clock>,
     paints: Paints,
     lights: Vec<Light>,
     camera: Camera,
@@ -69,9 +71,8 @@ impl Stage {
         let camera = view::camera(config, view::extent(&set), reach);
         let camera = camera.ok_or(StageError::FocusBehind)?;
         let mut fixed = board(&scheme, &materials, Side::near(&camera))?;
-        if config.clock.has_place() {
-            fixed.extend(clock::clock(&config.clock, &materials, clock::place(camera.axes()[2]))?);
-        }
+        let has_clock = config.clock.has_place();
+        let clock = has_clock.then(|| Clock::new(&materials, clock::place(camera.axes()[2])));
         for settings in &config.models {
             fixed.push(model(settings, &materials)?);
         }
@@ -79,6 +80,7 @@ impl Stage {
             pieces: [set.pawn, set.knight, set.bishop, set.rook, set.queen, set.king].map(Arc::new),
             surfaces: [materials.surface(&scheme.white)?, materials.surface(&scheme.black)?],
             fixed,
+            clock: clock.transpose()?,
             paints: Paints::new(&materials),
             lights: config.lights.clone(),
             room: (config.render.shading == Shading::Studio).then(|| {
@@ -105,6 +107,8 @@ impl Stage {
         if let Some(squares) = fixed.first_mut() {
             self.paints.paint(squares, &frame.marks, &frame.placement);
         }
+        let clock = self.clock.iter().flat_map(|clock| clock.objects(frame.dials.as_ref()));
+        fixed.extend(clock);
         Scene {
             objects: fixed.into_iter().chain(standing).chain(moving).collect(),
             lights: self.lights.clone(),
