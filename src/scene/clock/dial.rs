@@ -18,16 +18,16 @@ const FLAG_HALF_WIDTH: f64 = 0.055;
 pub struct Dial {
     pub middle: DVec2,
     pub radius: f64,
-    hands: [f64; 3],
-    /// Where the flag points, in degrees clockwise from straight up.
-    flag: f64,
+    /// Where the hour, minute and second hands point, and the flag.
+    hands: [DVec2; 3],
+    flag: DVec2,
 }
 
 impl Dial {
     pub fn new(middle: DVec2, radius: f64, reading: &Reading) -> Dial {
         // It hangs, or is lifted to the right by the minute hand.
         let flag = 180.0 - 90.0 * reading.flag;
-        Dial { middle, radius, hands: hands(reading.hands), flag }
+        Dial { middle, radius, hands: hands(reading.hands).map(direction), flag: direction(flag) }
     }
 
     /// The colour at `point` (y upwards) where there was `color` before.
@@ -41,12 +41,7 @@ impl Dial {
             |color: DVec3, with: DVec3, outside: f64| covered(color, with, outside * self.radius);
         let mut color = paint(color, RING, distance - 1.0);
         color = paint(color, DIAL, distance - 0.93);
-        // The nearest of the minutes' marks; every fifth is an hour's.
-        let degrees = libm::atan2(from_middle.x, from_middle.y).to_degrees();
-        let minute = (degrees / 6.0 + 0.5).floor();
-        let is_hour = minute.rem_euclid(5.0) == 0.0;
-        let (inner, half_width) = if is_hour { (0.72, 0.026) } else { (0.82, 0.009) };
-        color = paint(color, INK, stroke(from_middle, minute * 6.0, inner, 0.86, half_width));
+        color = paint(color, INK, mark(from_middle));
         let [hour, minute, second] = self.hands;
         color = paint(color, INK, stroke(from_middle, hour, -0.12, 0.48, 0.05));
         color = paint(color, INK, stroke(from_middle, minute, -0.12, 0.76, 0.035));
@@ -62,11 +57,27 @@ fn hands(seconds: u32) -> [f64; 3] {
     [seconds / 120.0, seconds / 10.0 % 360.0, seconds * 6.0 % 360.0]
 }
 
-/// How far `point` lies outside a stroke with round ends, which points `degrees` clockwise from
-/// straight up and goes from the distance `from` to the distance `to`.
-fn stroke(point: DVec2, degrees: f64, from: f64, to: f64, half_width: f64) -> f64 {
+/// `degrees` clockwise from straight up.
+fn direction(degrees: f64) -> DVec2 {
     let (sin, cos) = sin_cos(degrees);
-    let direction = DVec2::new(sin, cos);
+    DVec2::new(sin, cos)
+}
+
+/// How far `point` lies outside the nearest of the minutes' marks; every fifth is an hour's.
+fn mark(point: DVec2) -> f64 {
+    if point.length_squared() < 0.4 {
+        return f64::INFINITY;
+    }
+    let degrees = libm::atan2(point.x, point.y).to_degrees();
+    let minute = (degrees / 6.0 + 0.5).floor();
+    let is_hour = minute.rem_euclid(5.0) == 0.0;
+    let (inner, half_width) = if is_hour { (0.72, 0.026) } else { (0.82, 0.009) };
+    stroke(point, direction(minute * 6.0), inner, 0.86, half_width)
+}
+
+/// How far `point` lies outside a stroke with round ends along `direction`, which goes from the
+/// distance `from` to the distance `to`.
+fn stroke(point: DVec2, direction: DVec2, from: f64, to: f64, half_width: f64) -> f64 {
     let along = point.dot(direction).clamp(from, to);
     point.distance(direction * along) - half_width
 }

@@ -8,7 +8,7 @@ use super::digits;
 use super::reading::Reading;
 
 /// Texels a world unit of the face.
-const TEXELS: f64 = 64.0;
+const TEXELS: f64 = 48.0;
 
 const FACE: DVec3 = DVec3::new(0.32, 0.24, 0.17);
 const WINDOW: DVec3 = DVec3::new(0.74, 0.79, 0.68);

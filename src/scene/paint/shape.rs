@@ -116,3 +116,57 @@ impl Shape {
 fn is_on(middle: DVec2, point: DVec2) -> bool {
     (point + 0.5).floor() == middle
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const E4: DVec2 = DVec2::new(4.0, 3.0);
+
+    fn shapes() -> [Shape; 6] {
+        let middle = E4;
+        [
+            Shape::Square { middle },
+            Shape::Frame { middle, to: 0.455, width: 0.028 },
+            Shape::Glow { middle },
+            Shape::Cross { middle },
+            Shape::Disc { middle, radius: 0.435 },
+            Shape::Ring { middle, radius: 0.435, width: 0.08 },
+        ]
+    }
+
+    #[test]
+    fn shapes_of_a_square_keep_within_it() {
+        for shape in shapes() {
+            for step in 0..100 {
+                let along = f64::from(step) / 50.0 - 1.0;
+                for beyond in [[0.501, along], [-0.501, along], [along, 0.501], [along, -0.501]] {
+                    let place = E4 + DVec2::from(beyond);
+                    assert_eq!(shape.cover(place, 1e-3), 0.0, "{shape:?} at {place}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_round_a_king_is_seen_outside_his_foot() {
+        let [square, frame, glow, cross, disc, ring] =
+            shapes().map(|shape| move |x: f64, y: f64| shape.cover(E4 + DVec2::new(x, y), 1e-3));
+        for (x, y) in [(FOOT + 0.03, 0.0), (0.0, -FOOT - 0.03), (0.28, 0.28)] {
+            assert!(glow(x, y) > 0.7 && square(x, y) == 1.0, "{x}, {y}");
+        }
+        assert!(glow(0.49, 0.49) < 0.3, "it fades");
+        assert_eq!([cross(0.38, 0.38), cross(0.38, -0.38), cross(0.4, 0.0)], [1.0, 1.0, 0.0]);
+        assert_eq!([ring(0.435, 0.0), ring(FOOT, 0.0), ring(0.49, 0.0)], [1.0, 0.0, 0.0]);
+        assert_eq!([disc(0.1, 0.1), disc(0.4, 0.4)], [1.0, 0.0]);
+        assert_eq!([frame(0.44, 0.1), frame(0.3, 0.1)], [1.0, 0.0]);
+    }
+
+    #[test]
+    fn edges_fade_over_what_is_seen_at_once() {
+        let ring = Shape::Ring { middle: E4, radius: 0.435, width: 0.08 };
+        let edge = E4 + DVec2::X * 0.395;
+        assert!((ring.cover(edge, 0.02) - 0.5).abs() < 1e-9);
+        assert!((ring.cover(edge + DVec2::X * 0.01, 0.04) - 0.75).abs() < 1e-9);
+    }
+}
