@@ -203,7 +203,7 @@ fn paint_is_on_top_of_the_board_alone() {
     assert_eq!(color(&plain, at(-0.1)), color(&marked, at(-0.1)));
 }
 
-/// In a sky of its own each brush has its channel; in greys the four are told apart.
+/// In linear light; in greys the four are told apart, too.
 #[test]
 fn brushes_have_their_colors() {
     let stage = stage(Look::Studio, |_| {});

@@ -232,6 +232,11 @@ impl Clock {
     pub fn has_place(&self) -> bool {
         self.show != ShowClock::No
     }
+
+    /// The materials of its case and of its rocker.
+    pub fn materials(&self) -> [&str; 2] {
+        [&self.case, "brass"]
+    }
 }
 
 impl Default for Config {
@@ -320,9 +325,10 @@ impl Config {
     /// The pictures of the materials that are used.
     pub fn bitmaps(&self) -> BTreeSet<&PathBuf> {
         let parts = self.parts_in_force();
-        let case = self.clock.has_place().then_some(&self.clock.case);
-        let used = parts.materials().map(|(_, name)| name).chain(case);
-        used.chain(self.models.iter().map(|model| &model.material))
+        let clock = self.clock.has_place().then(|| self.clock.materials());
+        let used =
+            parts.materials().map(|(_, name)| name.as_str()).chain(clock.into_iter().flatten());
+        used.chain(self.models.iter().map(|model| model.material.as_str()))
             .filter_map(|name| self.materials.get(name))
             .filter(|material| material.texture == Texture::Bitmap)
             .map(|material| &material.bitmap)

@@ -85,9 +85,10 @@ impl Clock {
     /// When the settings name a material that is not there.
     pub fn new(materials: &Materials, place: DAffine3) -> Result<Clock, MaterialError> {
         let settings = materials.config.clock.clone();
+        let [case, brass] = materials.config.clock.materials();
         Ok(Clock {
-            case: materials.surface(&settings.case)?,
-            brass: materials.surface("brass")?,
+            case: materials.surface(case)?,
+            brass: materials.surface(brass)?,
             filter: materials.config.render.filter,
             is_linear: materials.is_linear(),
             settings,

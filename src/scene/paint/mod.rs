@@ -18,13 +18,13 @@ use crate::timeline::Marks;
 
 use shape::Shape;
 
-/// How far a piece's foot reaches from the middle of its square: a king's, the widest.
+/// How far a piece's foot reaches from the middle of its square: that of a king, the widest.
 const FOOT: f64 = 0.37;
 
 /// How far below the board's surface its top may seem to be, in world units.
 const TOP: f64 = 1e-4;
 
-/// What lies beside it, farther than any layer that reaches a square from its middle.
+/// No point of a square is farther from its middle.
 const HALF_DIAGONAL: f64 = 0.71;
 
 /// How wide the dark edge round an arrow or a ring is, and its share of the colour beneath.
