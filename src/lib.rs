@@ -19,7 +19,7 @@
 //! | [`config`] | `config.ini`, typed and range-checked | – |
 //! | [`assets`] | piece sets from TOML (`docs/piece-sets.md`), bitmaps | config, geometry |
 //! | [`geometry`] | rays, spans, bounds, transforms, curves, and one file a shape | – |
-//! | [`scene`] | materials, textures, lights, camera, board, clock and pieces; builds a [`scene::Scene`] from a frame | geometry, config, assets, notation, timeline |
+//! | [`scene`] | materials, textures, lights, camera, board and its marks, clock and pieces; builds a [`scene::Scene`] from a frame | geometry, config, assets, notation, timeline |
 //! | [`tracer`] | rays through a whole scene, shading, antialiasing; a picture in memory | geometry, scene |
 //! | [`export`] | a scene as another renderer's text | geometry, scene, assets, config |
 //! | [`output`] | pictures, manifests, reports; whole files only | – |

@@ -185,6 +185,46 @@ fn bad_thesis_lines_and_settings_get_a_sentence() {
             2,
             "POV-Ray's scenes are written as Phong's model has them, expected --look thesis",
         ),
+        (
+            &["diagram", "--white", "KE1", "--arrows", "Ge2e4,e2e2"],
+            2,
+            "'e2e2' for '--arrows <ARROWS>': goes from a square to itself, expected two squares",
+        ),
+        (
+            &["diagram", "--white", "KE1", "--arrows", "Pe2e4"],
+            2,
+            "'Pe2e4' for '--arrows <ARROWS>': expected G, R, Y or B and two squares, as in Ge2e4",
+        ),
+        (
+            &["diagram", "--white", "KE1", "--squares", "Gd5,Ri1"],
+            2,
+            "'Ri1' for '--squares <SQUARES>': expected G, R, Y or B and a square, as in Gd5",
+        ),
+        (
+            &["diagram", "--white", "KE1", "--last-move", "Ge2e4"],
+            2,
+            "'Ge2e4' for '--last-move <SQUARES>': expected two squares, as in e2e4",
+        ),
+        (
+            &["diagram", "--white", "KE1", "--marks", "check,arows"],
+            2,
+            "there is no mark `arows`, expected one of last-move, check, mate, drawn, all, none",
+        ),
+        (
+            &["diagram", "--white", "KE1", "--marks", "lastmove"],
+            2,
+            "there is no mark `lastmove`, did you mean `last-move`?",
+        ),
+        (
+            &["diagram", "--white", "KE1", "--marks", "none,check"],
+            2,
+            "`none` stands beside others, expected it alone",
+        ),
+        (
+            &["diagram", "--white", "KE1", "--marks", "check", "--squares", "d5"],
+            2,
+            "--squares: --marks leaves drawn out, expected it in the list",
+        ),
         (&["diagram", "--white", "KE1", "--dpi", "300"], 2, "--width <LENGTH>"),
         (
             &["diagram", "--white", "KE1", "--width", "8cm", "--dpi", "0"],
@@ -282,6 +322,45 @@ fn printed_settings_name_their_pictures_wherever_they_are_saved() {
 }
 
 #[test]
+fn marks_are_drawn_on_request_and_left_out_likewise() {
+    let folder = folder();
+    let here = folder.path();
+    let diagram = |options: &[&str]| {
+        let fen = "4k3/8/8/8/8/8/8/4RK2 b - - 0 1";
+        let common = ["diagram", "--fen", fen, "--size", "60x40", "--aa", "none", "-o", "a.png"];
+        let (code, _, stderr) = run(here, &[&common[..], options].concat());
+        assert_eq!(code, 0, "{options:?}: {stderr}");
+        read(&here.join("a.png"))
+    };
+    // The king is in check.
+    let plain = diagram(&["--marks", "none"]);
+    assert_ne!(diagram(&[]), plain);
+    assert_eq!(diagram(&["--marks", "last-move,mate,drawn"]), plain);
+    assert_eq!(diagram(&["--marks", "check"]), diagram(&["--marks", "all"]));
+    let green = diagram(&["--arrows", "Ga1a7,Gb1c3", "--squares", "gd5"]);
+    assert_ne!(green, diagram(&[]));
+    assert_eq!(green, diagram(&["--arrows", "a1a7,b1c3", "--squares", "d5"]));
+    assert_ne!(green, diagram(&["--arrows", "Ra1a7,Rb1c3", "--squares", "Rd5"]));
+    assert_ne!(diagram(&["--last-move", "e2e4"]), diagram(&[]));
+    // The thesis's look has none but those that are asked for.
+    let thesis = |options: &[&str]| diagram(&[&["--look", "thesis"], options].concat());
+    assert_eq!(thesis(&[]), thesis(&["--marks", "none"]));
+    assert_ne!(thesis(&["--squares", "d5"]), thesis(&[]));
+}
+
+#[test]
+fn an_export_says_that_it_has_no_marks() {
+    let folder = folder();
+    let fen = "4k3/8/8/8/8/8/8/4RK2 b - - 0 1";
+    let arguments = ["export", "--fen", fen, "-o", "-"];
+    let marks = "// Marks in lightsquare, none here.";
+    let (_, plain, _) = run(folder.path(), &arguments);
+    let (_, marked, _) = run(folder.path(), &[&arguments[..], &["--marks", "all"]].concat());
+    assert!(!plain.contains(marks) && marked.contains(marks));
+    assert_eq!(plain.lines().count() + 1, marked.lines().count());
+}
+
+#[test]
 fn a_scene_is_written_with_its_pictures_beside_it() {
     let folder = folder();
     let here = folder.path();
@@ -292,7 +371,7 @@ fn a_scene_is_written_with_its_pictures_beside_it() {
     assert!(stderr.contains("sub/king.pov is written"), "{stderr}");
     let scene = fs::read_to_string(here.join("sub/king.pov")).unwrap();
     assert!(scene.contains("assumed_gamma srgb") && scene.contains("king-bitmap0.png"));
-    assert_eq!(read(&here.join("sub/king-bitmap0.png")).dimensions(), (710, 377));
+    assert_eq!(read(&here.join("sub/king-bitmap0.png")).dimensions(), (532, 283));
     // What holds no picture fits into a pipe.
     let (code, stdout, _) = run(here, &["export", "--white", "KE1", "-o", "-"]);
     assert!(code == 0 && stdout.contains("camera {"));

@@ -4,9 +4,9 @@ use glam::DVec3;
 use image::DynamicImage;
 use lightsquare::assets::{Assets, SetName};
 use lightsquare::config::{Config, Look};
-use lightsquare::notation::Placement;
+use lightsquare::notation::{Color, Placement};
 use lightsquare::scene::{Reach, Scene, Stage};
-use lightsquare::timeline::{Frame, Mover, Spot};
+use lightsquare::timeline::{Dials, Frame, Mover, Spot};
 use lightsquare::tracer::{Antialiasing, render};
 
 const ENDING: &str = "8/5k2/8/3q4/8/2N5/1P6/K7";
@@ -147,6 +147,48 @@ fn lights_turn_with_the_cameras_side_where_they_are_told_to() {
     let middle = lightsquare::scene::MIDDLE;
     let [white, black] = [View::White, View::Black].map(|view| key(view, true) - middle);
     assert!((white + black).with_y(0.0).length() < 1e-9, "{white} and {black}");
+}
+
+/// From both sides of the board: the rocker's end on the side of the player to move is up, and his
+/// lamp is lit.
+#[test]
+fn the_clock_shows_who_is_to_move_on_his_side() {
+    use lightsquare::config::{ShowClock, View};
+    for (view, running) in [View::White, View::Black, View::Player]
+        .into_iter()
+        .flat_map(|view| [Color::White, Color::Black].map(|running| (view, running)))
+    {
+        let stage = stage(|config| {
+            config.camera.view = view;
+            config.clock.show = ShowClock::Game;
+        });
+        let still = Frame::still(Placement::EMPTY);
+        let others = stage.scene(&still).objects.len();
+        let dials = Dials::Times { left: [Some(60), Some(70)], running: Some(running) };
+        let objects = stage.scene(&Frame { dials: Some(dials), ..still }).objects;
+        let [_, face, _, rocker] = &objects[others..] else { panic!("{}", objects.len()) };
+        let side =
+            |point: DVec3, from: DVec3| if point.z < from.z { Color::White } else { Color::Black };
+        let [a, b] = [3.0, -3.0].map(|z| rocker.body.transform().transform_point3(DVec3::Z * z));
+        let [up, down] = if a.y > b.y { [a, b] } else { [b, a] };
+        assert!(up.y > down.y + 0.3 && side(up, down) == running, "{view:?}, {running:?}");
+        let face_at =
+            |x: f64, y: f64| face.body.transform().transform_point3(DVec3::new(1.52, y, x));
+        let middle = face_at(0.0, 0.0);
+        let grid = (0..400).flat_map(|x| (0..200).map(move |y| [f64::from(x), f64::from(y)]));
+        let lit: Vec<DVec3> = grid
+            .map(|[x, y]| face_at(0.028 * x - 5.6, 0.03 * y - 1.1))
+            .filter(|point| {
+                let (material, place) = face.material(*point, DVec3::ZERO);
+                let color = face.color(material, place, 0.0);
+                color.y > 3.0 * color.x && color.y > 0.5
+            })
+            .collect();
+        assert!(
+            lit.len() > 50 && lit.iter().all(|point| side(*point, middle) == running),
+            "{view:?}"
+        );
+    }
 }
 
 /// Dark edges before a white or transparent ground are refined as others are.

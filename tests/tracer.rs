@@ -29,6 +29,7 @@ fn made_of(solid: impl Solid + 'static, finish: Finish, color: DVec3) -> Object 
         body: Placed::new(Arc::new(solid), DAffine3::IDENTITY),
         surface: Surface::Uniform(material(finish, color)),
         seed: 0,
+        paint: None,
     }
 }
 

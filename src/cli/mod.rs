@@ -1,6 +1,7 @@
 //! The command line: from arguments to typed jobs.
 
 mod film;
+mod marks;
 mod picture;
 mod print;
 mod subject;
@@ -20,6 +21,7 @@ use lightsquare::output::PictureFormat;
 
 use crate::progress::{ProgressMode, Verbosity};
 use film::FilmArgs;
+use marks::DrawnArgs;
 use picture::PictureArgs;
 use print::PrintArgs;
 use subject::SubjectArgs;
@@ -135,6 +137,7 @@ Examples:
   lightsquare diagram games/opera-1858.pgn --at 17w -o mate.png
   lightsquare diagram --fen '8/8/8/3k4/8/8/4P3/4K3 w - - 0 1' -o ending.png
   lightsquare diagram games/opera-1858.pgn --at 9w --camera top --coordinates --width 80mm
+  lightsquare diagram games/opera-1858.pgn --at 9w --arrows Gc3b5,Rb5d7 --squares Rd7
   lightsquare diagram --white KE1PE2 --black KD5 -o - | display -";
 
 const INSPECT_EXAMPLES: &str = "\
@@ -194,6 +197,8 @@ pub struct DiagramArgs {
     output: PathBuf,
     #[command(flatten)]
     picture: PictureArgs,
+    #[command(flatten)]
+    drawn: DrawnArgs,
     #[command(flatten)]
     print: PrintArgs,
 }
@@ -286,13 +291,15 @@ impl DiagramArgs {
         }
         let (picture, dpi) = self.settings()?;
         keep_transparency("--output", &picture.config, &self.output)?;
-        Ok(DiagramJob { subject: self.subject.into_subject()?, output: self.output, picture, dpi })
+        let (subject, drawn) = (self.subject.into_subject()?, self.drawn.into_drawn());
+        Ok(DiagramJob { subject, drawn, output: self.output, picture, dpi })
     }
 
     /// The settings, with the size that the width on paper asks for, and the pixels an inch.
     fn settings(&self) -> anyhow::Result<(PictureSettings, Option<u32>)> {
         let mut picture = self.picture.settings(Look::default())?;
         let dpi = self.print.apply(&mut picture.config)?;
+        self.drawn.show(self.picture.marks.as_ref(), &mut picture.config.marks)?;
         Ok((picture, dpi))
     }
 }

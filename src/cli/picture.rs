@@ -8,12 +8,13 @@ use anyhow::{Context, bail};
 use clap::{Args, ValueEnum};
 use lightsquare::assets::SetName;
 use lightsquare::config::{
-    CAPTURED, Captured, Config, Look, ORIENTATIONS, Orientation, Quality, Sampling, VIEWS, View,
-    unknown,
+    CAPTURED, Captured, Config, Look, ORIENTATIONS, Orientation, Quality, Sampling, ShowClock,
+    VIEWS, View, unknown,
 };
 use lightsquare::job::PictureSettings;
 
 use super::UsageError;
+use super::marks::MarksArg;
 use super::values::{one_of, rays, size, threads};
 
 /// What every picture has; the same words for every command.
@@ -67,6 +68,13 @@ pub struct PictureArgs {
     /// Name files and ranks on the board's frame
     #[arg(long)]
     coordinates: bool,
+    /// What is painted on the squares, with commas between: last-move, check, mate, drawn (squares and
+    /// arrows), or all or none [default: all; none in the thesis's look]
+    #[arg(long, value_name = "LIST", value_parser = MarksArg::parse)]
+    pub marks: Option<MarksArg>,
+    /// Put a clock with the game's times beside the board
+    #[arg(long)]
+    clock: bool,
     /// Wood and marble as plain colours
     #[arg(long)]
     plain: bool,
@@ -157,6 +165,12 @@ impl PictureArgs {
         config.render.rays = self.ssrays.unwrap_or(config.render.rays);
         if self.coordinates {
             config.parts.coordinates = Some(true);
+        }
+        if let Some(marks) = &self.marks {
+            marks.apply(&mut config.marks);
+        }
+        if self.clock {
+            config.clock.show = ShowClock::Game;
         }
         config.render.plain |= self.plain;
         if self.transparent {

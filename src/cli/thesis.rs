@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use anyhow::bail;
 use lightsquare::assets::SetName;
 use lightsquare::config::{Config, Look, Sampling, nearest};
-use lightsquare::job::{DiagramJob, PictureSettings, Subject};
+use lightsquare::job::{DiagramJob, Drawn, PictureSettings, Subject};
 use lightsquare::notation::Placement;
 use lightsquare::output::PictureFormat;
 
@@ -88,6 +88,7 @@ pub fn job(arguments: &[String]) -> anyhow::Result<DiagramJob> {
     keep_transparency("-output", &config, &output)?;
     Ok(DiagramJob {
         subject: Subject::Placement { fen: placement.board_fen(), placement },
+        drawn: Drawn::default(),
         output,
         picture: PictureSettings {
             config,

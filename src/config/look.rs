@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use super::{
-    Camera, Captured, Clock, Config, FARTHEST, Filter, Knights, Light, Normals, Orientation, Parts,
-    Pose, Render, Room, Sampling, Shading, View, shelf, theme,
+    Camera, Captured, Clock, Config, FARTHEST, Filter, Knights, Light, Marks, Normals, Orientation,
+    Parts, Pose, Render, Room, Sampling, Shading, ShowClock, View, WithoutTimes, shelf, theme,
 };
 
 /// How pictures look before any setting: a starting point for all of them.
@@ -72,7 +72,14 @@ fn thesis() -> Config {
         theme: String::new(),
         themes: theme::themes(),
         parts: Parts::default(),
-        clock: Clock { show: false, white: 0, black: 0, case: "frame".to_owned() },
+        marks: Marks::new(false),
+        clock: Clock {
+            show: ShowClock::No,
+            without_times: WithoutTimes::Moves,
+            white: 0,
+            black: 0,
+            case: "frame".to_owned(),
+        },
         models: Vec::new(),
         materials: BTreeMap::new(),
     }
@@ -92,6 +99,7 @@ fn studio(thesis: Config) -> Config {
         height: 800,
         camera: Camera { view: View::White, ..thesis.camera },
         knights: Knights::Left,
+        marks: Marks::new(true),
         lights: vec![
             softbox([-26.0, 60.0, -10.0], [1.05, 1.0, 0.93], [18.0, 14.0]),
             softbox([60.0, 36.0, -22.0], [0.165, 0.17, 0.178], [16.0, 16.0]),

@@ -8,6 +8,7 @@ mod checks;
 mod ini;
 mod keys;
 mod look;
+mod marks;
 mod material;
 mod model;
 mod nearest;
@@ -21,6 +22,7 @@ pub use camera::{Camera, ORIENTATIONS, Orientation, Pose, VIEWS, View};
 pub use camera_path::{KeyFrame, When};
 pub use keys::unknown;
 pub use look::Look;
+pub use marks::Marks;
 pub use material::{Axis, Coat, Finish, Mapping, Material, Texture};
 pub use model::{Model, Shape};
 pub use nearest::nearest;
@@ -65,6 +67,7 @@ pub struct Config {
     /// Which way pieces look.
     pub knights: Knights,
     pub captured: Captured,
+    pub marks: Marks,
     pub clock: Clock,
     pub models: Vec<Model>,
     /// By name, in small letters; every name that the other settings use is here.
@@ -211,12 +214,48 @@ pub const CAPTURED: [(&str, Captured); 3] =
 /// The clock beside the board.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Clock {
-    pub show: bool,
-    /// What the two dials show, in seconds since twelve o'clock.
+    pub show: ShowClock,
+    /// What it shows of a game without times.
+    pub without_times: WithoutTimes,
+    /// What the two dials show where the times are fixed, in seconds since twelve o'clock.
     pub white: u32,
     pub black: u32,
     /// The material of its case, by name.
     pub case: String,
+}
+
+/// What the clock beside the board shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ShowClock {
+    /// There is none.
+    No,
+    /// The times of the settings.
+    Fixed,
+    /// Those of the game.
+    Game,
+}
+
+/// What a clock that shows the game's times shows where it has none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum WithoutTimes {
+    /// There is no clock.
+    Absent,
+    /// How many moves each player has made.
+    Moves,
+}
+
+impl Clock {
+    /// Whether pictures keep a place for it.
+    pub fn has_place(&self) -> bool {
+        self.show != ShowClock::No
+    }
+
+    /// The materials of its case and of its rocker.
+    pub fn materials(&self) -> [&str; 2] {
+        [&self.case, "brass"]
+    }
 }
 
 impl Default for Config {
@@ -305,9 +344,10 @@ impl Config {
     /// The pictures of the materials that are used.
     pub fn bitmaps(&self) -> BTreeSet<&PathBuf> {
         let parts = self.parts_in_force();
-        let case = self.clock.show.then_some(&self.clock.case);
-        let used = parts.materials().map(|(_, name)| name).chain(case);
-        used.chain(self.models.iter().map(|model| &model.material))
+        let clock = self.clock.has_place().then(|| self.clock.materials());
+        let used =
+            parts.materials().map(|(_, name)| name.as_str()).chain(clock.into_iter().flatten());
+        used.chain(self.models.iter().map(|model| model.material.as_str()))
             .filter_map(|name| self.materials.get(name))
             .filter(|material| material.texture == Texture::Bitmap)
             .map(|material| &material.bitmap)

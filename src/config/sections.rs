@@ -10,14 +10,14 @@ use super::values::{
 };
 use super::{
     CAPTURED, Clock, Config, FARTHEST, Fault, Filter, Knights, Light, MAX_RAYS, MAX_SIDE, Model,
-    Normals, Render, Room, Sampling, Shading, Shape, View, camera, camera_path, material, model,
-    theme,
+    Normals, Render, Room, Sampling, Shading, Shape, ShowClock, View, WithoutTimes, camera,
+    camera_path, marks, material, model, theme,
 };
 
 const MAX_LIGHTS: u32 = 100;
 const MAX_MODELS: u32 = 1000;
 
-const SECTIONS: [&str; 12] = [
+const SECTIONS: [&str; 13] = [
     "GlobalSettings",
     "Camera",
     "CameraPath",
@@ -27,6 +27,7 @@ const SECTIONS: [&str; 12] = [
     "Render",
     "Board",
     "Pieces",
+    "Marks",
     "Clock",
     "Material white",
     "Theme wood",
@@ -108,12 +109,19 @@ const KNIGHTS: Choice<Knights> = Choice(&[
     ("kingside", Knights::Kingside),
 ]);
 
-const CLOCK_KEYS: [Key<Clock>; 4] = [
-    key!("Show", Clock, show: YES_NO),
+const CLOCK_KEYS: [Key<Clock>; 5] = [
+    key!("Show", Clock, show: SHOW_CLOCK),
+    key!("WithoutTimes", Clock, without_times: WITHOUT_TIMES),
     key!("White", Clock, white: Time),
     key!("Black", Clock, black: Time),
     key!("Case", Clock, case: Name),
 ];
+
+const SHOW_CLOCK: Choice<ShowClock> =
+    Choice(&[("no", ShowClock::No), ("yes", ShowClock::Fixed), ("game", ShowClock::Game)]);
+
+const WITHOUT_TIMES: Choice<WithoutTimes> =
+    Choice(&[("absent", WithoutTimes::Absent), ("moves", WithoutTimes::Moves)]);
 
 /// A section with a number in its name.
 struct Numbered<T> {
@@ -176,6 +184,9 @@ pub fn interpret(
             "pieces" => {
                 let lines = read_section(section, &PIECES_KEYS, config, faults);
                 part_lines.push((None, lines));
+            }
+            "marks" => {
+                read_section(section, &marks::KEYS, &mut config.marks, faults);
             }
             _ if let Some(theme) = name.strip_prefix("theme ") => {
                 let begin = config.themes.get(theme).or(config.themes.get(theme::BASE)).cloned();
@@ -339,6 +350,7 @@ pub fn show(config: &Config) -> String {
     show_section("Render", &RENDER_KEYS, &config.render, &mut out);
     show_section("Board", &theme::BOARD_KEYS, &config.parts, &mut out);
     show_section("Pieces", &PIECES_KEYS, config, &mut out);
+    show_section("Marks", &marks::KEYS, &config.marks, &mut out);
     show_section("Clock", &CLOCK_KEYS, &config.clock, &mut out);
     for (number, model) in config.models.iter().enumerate() {
         show_section(&format!("Model{number}"), &model::KEYS, model, &mut out);
@@ -456,6 +468,12 @@ mod tests {
             ),
             ("[Clock]\nWhite=61:00", "line 2: White is `61:00`, expected a time"),
             (
+                "[Clock]\nShow=gmae",
+                "line 2: Show is `gmae`, expected one of no, yes, game (did you mean `game`?)",
+            ),
+            ("[Marks]\nArrows=yes", "line 2: there is no key `Arrows`, expected one of LastMove"),
+            ("[Marks]\nCheck=maybe", "line 2: Check is `maybe`, expected one of yes, no"),
+            (
                 "[Camera]\nXyzzy=0",
                 "line 2: there is no key `Xyzzy`, expected one of View, Orientation, Aperture",
             ),
@@ -525,7 +543,7 @@ mod tests {
     fn what_is_printed_is_read_the_same() {
         let text = "[GlobalSettings]\nImageWidth=7\n[Light0]\nPosition=1,2.5,-3e2\nColor=1,0.1,0\n\
             [Camera]\nZRot=-0.1\n[Render]\nAntialiasing=2\nFilter=mip\n[Board]\nTable=Walnut\n\
-            [Pieces]\nWhite=own\n[Clock]\nShow=yes\nWhite=1:02:03\n\
+            [Pieces]\nWhite=own\n[Clock]\nShow=yes\nWhite=1:02:03\nWithoutTimes=absent\n[Marks]\nCheck=no\nBlue=0,0,1\n\
             [Theme club]\n[Room]\nLightsTurn=no\n\
             [Model0]\nShape=plane\nOrigin=0,-9,0\nNormal=0,1,0\nMaterial=floor\n\
             [Model1]\nShape=box\nMin=0,0,0\nMax=1,1,1\nRotation=0,45,0\n\

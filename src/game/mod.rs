@@ -25,6 +25,7 @@ pub use notes::{Eval, Notes};
 pub use scan::{ScannedGame, Scanner};
 pub use select::{Absent, Moment, ParseMomentError, ParseSelectionError, Selection};
 pub use source::{Source, SourceError};
+pub use start::fen_position;
 pub use variation::Branch;
 pub use word::{printable, shortened};
 
@@ -153,6 +154,14 @@ impl Game {
         match ply.checked_sub(1) {
             None => Placement::from(&self.start.board),
             Some(index) => Placement::from(self.plies[index].after.board()),
+        }
+    }
+
+    /// The position after `ply` half-moves, as far as it can be played.
+    pub fn position(&self, ply: usize) -> Option<Chess> {
+        match ply.checked_sub(1) {
+            None => start::position(&self.start).ok(),
+            Some(index) => self.plies.get(index).map(|ply| ply.after.clone()),
         }
     }
 

@@ -55,6 +55,12 @@ pub fn position(setup: &Setup) -> Result<Chess, String> {
         .map_err(|error| error.to_string())
 }
 
+/// The position of a FEN, where it is one that can be played.
+pub fn fen_position(fen: &str) -> Option<Chess> {
+    let fen: Fen = fen.trim().parse().ok()?;
+    position(fen.as_setup()).ok()
+}
+
 /// `setup` as a FEN, cleaned by the rules where it is a position that can be played.
 pub fn fen(setup: &Setup) -> String {
     match position(setup) {

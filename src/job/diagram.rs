@@ -6,18 +6,41 @@ use std::path::{Path, PathBuf};
 use super::studio::{PictureSettings, Studio};
 use super::subject::{Subject, keep_inputs};
 use super::{JobError, Progress, Showing, shown};
+use crate::notation::{Arrow, Circle, Square};
 use crate::output::{encode_png, prepare_file, write_picture};
+use crate::timeline::Marks;
 use crate::tracer::RayCounts;
 
 /// Which position to render, and where to.
 #[derive(Clone, Debug)]
 pub struct DiagramJob {
     pub subject: Subject,
+    pub drawn: Drawn,
     /// The picture's file, PNG or BMP by its ending; `-` is the standard output, as PNG.
     pub output: PathBuf,
     pub picture: PictureSettings,
     /// Pixels an inch of paper, for the file to say; nothing when `None`.
     pub dpi: Option<u32>,
+}
+
+/// What is to be drawn on the board, over what the game says.
+#[derive(Clone, Debug, Default)]
+pub struct Drawn {
+    /// Beside the game's own.
+    pub circles: Vec<Circle>,
+    pub arrows: Vec<Arrow>,
+    /// The squares that a move left and reached, instead of the game's last one.
+    pub last_move: Option<[Square; 2]>,
+}
+
+impl Drawn {
+    fn add_to(&self, marks: &mut Marks) {
+        marks.circles.extend(&self.circles);
+        marks.arrows.extend(&self.arrows);
+        if let Some(squares) = self.last_move {
+            marks.last_move = squares.to_vec();
+        }
+    }
 }
 
 /// What a diagram took.
@@ -37,7 +60,8 @@ pub fn diagram(
     progress: &dyn Progress,
     stdout: &mut dyn Write,
 ) -> Result<DiagramSummary, JobError> {
-    let shot = job.subject.read(&job.picture.config, progress)?;
+    let mut shot = job.subject.read(&job.picture.config, progress)?;
+    job.drawn.add_to(&mut shot.frame.marks);
     keep_inputs(&job.subject, &job.picture, &job.output)?;
     let mut studio = Studio::new(&job.picture, Showing::default().reach(&job.picture.config))?;
     let to_stdout = job.output == Path::new("-");

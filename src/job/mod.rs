@@ -15,7 +15,7 @@ mod studio;
 mod subject;
 
 pub use bench::{BenchJob, Measurement, bench};
-pub use diagram::{DiagramJob, DiagramSummary, diagram};
+pub use diagram::{DiagramJob, DiagramSummary, Drawn, diagram};
 pub use export::{ExportJob, export};
 pub use inspect::{InspectJob, Listing, inspect};
 pub use render::{RenderJob, Summary, render};

@@ -1,6 +1,6 @@
 //! From settings to what timelines and stages are told.
 
-use crate::config::{Camera, Captured, Config, View};
+use crate::config::{Camera, Captured, Config, ShowClock, View};
 use crate::scene::Reach;
 use crate::timeline::{Camerawork, Film, Lead, Script};
 
@@ -32,6 +32,7 @@ impl Showing {
             animate: self.animate,
             camerawork: Camerawork { orbit: self.orbit, each_move: self.orbits_each_move, lead },
             keeps_captured: self.keeps_captured(config),
+            has_clock: config.clock.show == ShowClock::Game,
             ..Script::default()
         }
     }

@@ -9,7 +9,7 @@ use super::{JobError, Progress, Showing, say_problems, shown};
 use crate::config::Config;
 use crate::game::{Game, Moment, Source};
 use crate::notation::Placement;
-use crate::timeline::{Frame, Timeline};
+use crate::timeline::{Frame, Marks, Timeline};
 
 /// Where a position comes from.
 #[derive(Clone, Debug)]
@@ -33,7 +33,8 @@ impl Subject {
     pub(super) fn read(&self, config: &Config, progress: &dyn Progress) -> Result<Shot, JobError> {
         let (file, number, at) = match self {
             Subject::Placement { placement, fen } => {
-                let frame = Frame::still(*placement);
+                let marks = Marks::of_fen(fen);
+                let frame = Frame { marks, ..Frame::still(*placement) };
                 return Ok(Shot { frame, texts: vec![("FEN", fen.clone())], is_whole: true });
             }
             Subject::Game { file, number, at } => (file, *number, *at),

@@ -20,7 +20,7 @@ const RIM: f64 = 1e-3;
 /// How far a plain base lies below the squares.
 const STEP: f64 = 0.12;
 
-/// The board, and the table if there is one; coordinates, where they are asked for, for a viewer who
+/// The board, its squares first, and the table if there is one; coordinates, where they are asked for, for a viewer who
 /// has the side `near` before him.
 ///
 /// # Errors

@@ -19,6 +19,7 @@ mod materials;
 mod measures;
 mod models;
 mod noise;
+mod paint;
 mod room;
 mod stage;
 mod surface;
@@ -34,6 +35,7 @@ pub use mapping::Mapping;
 pub use material::{Material, Rgb};
 pub use materials::MaterialError;
 pub use measures::{HALF, MIDDLE, SQUARE};
+pub use paint::Painting;
 pub use room::{Daylight, Room, Softbox};
 pub use stage::{Stage, StageError};
 pub use surface::Surface;
@@ -56,12 +58,19 @@ pub struct Object {
     pub surface: Surface,
     /// Which tree or block it is cut from.
     pub seed: u64,
+    /// What is painted on its top, where anything is.
+    pub paint: Option<Arc<Painting>>,
 }
 
 impl Object {
     /// A body where it was made.
     pub fn standing(solid: impl Solid + 'static, surface: Surface) -> Object {
-        Object { body: Placed::new(Arc::new(solid), DAffine3::IDENTITY), surface, seed: 0 }
+        Object::placed(Arc::new(solid), DAffine3::IDENTITY, surface)
+    }
+
+    /// A body that was carried to its `place`.
+    pub fn placed(solid: Arc<dyn Solid>, place: DAffine3, surface: Surface) -> Object {
+        Object { body: Placed::new(solid, place), surface, seed: 0, paint: None }
     }
 
     /// The material at a `point` of the surface with the outward `normal`, and the place as its
@@ -70,6 +79,16 @@ impl Object {
     pub fn material(&self, point: DVec3, normal: DVec3) -> (&Material, Place) {
         let point = self.body.own_point(point - normal * HAIR);
         self.surface.material(Place { on_body: point, point, seed: self.seed })
+    }
+
+    /// The colour of a `material` of it at `place`, paint and all, where a width of `seen` world units
+    /// is seen at once.
+    pub fn color(&self, material: &Material, place: Place, seen: f64) -> Rgb {
+        let ground = material.texture.color(place, seen);
+        match &self.paint {
+            Some(painting) => painting.over(ground, place.on_body, seen),
+            None => ground,
+        }
     }
 }
 

@@ -6,7 +6,7 @@ use super::Object;
 use super::materials::{MaterialError, Materials};
 use crate::config::{Model, Shape};
 use crate::geometry::transform::{rotation_x, rotation_y, rotation_z, translation};
-use crate::geometry::{Cuboid, Placed, Plane, Sphere};
+use crate::geometry::{Cuboid, Plane, Sphere};
 
 /// The body that `model` describes.
 pub fn model(model: &Model, materials: &Materials) -> Result<Object, MaterialError> {
@@ -24,7 +24,7 @@ pub fn model(model: &Model, materials: &Materials) -> Result<Object, MaterialErr
             let middle = model.min.midpoint(model.max);
             let place = translation(middle) * turn * translation(-middle);
             let block = Cuboid { min: model.min, max: model.max };
-            Object { body: Placed::new(Arc::new(block), place), surface, seed: 0 }
+            Object::placed(Arc::new(block), place, surface)
         }
     })
 }

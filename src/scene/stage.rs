@@ -6,16 +6,18 @@ use glam::DVec3;
 
 use super::board::board;
 use super::bodies::bodies;
+use super::clock::Clock;
 use super::facing::Facing;
 use super::materials::{MaterialError, Materials};
 use super::measures::{MIDDLE, SQUARE};
 use super::models::model;
 use super::noise::hash;
-use super::{Camera, Object, Reach, Rgb, Room, Scene, Side, Surface, clock, view};
+use super::paint::Paints;
+use super::{Camera, Object, Reach, Rgb, Room, Scene, Side, Surface, view};
 use crate::assets::Assets;
 use crate::config::{self, Config, Light, Shading};
+use crate::geometry::Csg;
 use crate::geometry::transform::{scale, translation};
-use crate::geometry::{Csg, Placed};
 use crate::notation::{Color, Piece, Role, Square};
 use crate::timeline::{Bodies, Frame, Gaze, Mover, Spot};
 
@@ -45,8 +47,10 @@ pub struct Stage {
     pieces: [Arc<Csg>; 6],
     /// Of White's pieces, and of Black's.
     surfaces: [Surface; 2],
-    /// The board, the clock and the extra models.
+    /// The board, its squares first, and the extra models.
     fixed: Vec<Object>,
+    clock: Option<Clock>,
+    paints: Paints,
     lights: Vec<Light>,
     camera: Camera,
     bodies: Bodies,
@@ -76,9 +80,9 @@ impl Stage {
         let camera = view::camera(config, room, reach);
         let camera = camera.ok_or(StageError::FocusBehind)?;
         let mut fixed = board(&scheme, &materials, Side::near(&camera))?;
-        if config.clock.show {
-            fixed.extend(clock::clock(&config.clock, &materials, clock::place(camera.axes()[2]))?);
-        }
+        let has_clock = config.clock.has_place();
+        let clock = has_clock
+            .then(|| Clock::new(&materials, view::clock_place(camera.axes()[2], &bodies, reach)));
         for settings in &config.models {
             fixed.push(model(settings, &materials)?);
         }
@@ -86,6 +90,8 @@ impl Stage {
             pieces: [set.pawn, set.knight, set.bishop, set.rook, set.queen, set.king].map(Arc::new),
             surfaces: [materials.surface(&scheme.white)?, materials.surface(&scheme.black)?],
             fixed,
+            clock: clock.transpose()?,
+            paints: Paints::new(&materials),
             lights: config.lights.clone(),
             room: (config.render.shading == Shading::Studio).then(|| {
                 let turn = if config.room.turns { camera.azimuth() } else { 0.0 };
@@ -108,8 +114,14 @@ impl Stage {
             self.object(piece, frame.identities.get(square), Spot::on(square), 1.0)
         });
         let loose = frame.movers.iter().chain(&frame.taken).map(|mover| self.loose(mover));
+        let mut fixed = self.fixed.clone();
+        if let Some(squares) = fixed.first_mut() {
+            self.paints.paint(squares, &frame.marks, &frame.placement);
+        }
+        let clock = self.clock.iter().flat_map(|clock| clock.objects(frame.dials.as_ref()));
+        fixed.extend(clock);
         Scene {
-            objects: self.fixed.iter().cloned().chain(standing).chain(loose).collect(),
+            objects: fixed.into_iter().chain(standing).chain(loose).collect(),
             lights: self.lights.clone(),
             camera: self.camera(&frame.gaze),
             background: self.background,
@@ -157,17 +169,12 @@ impl Stage {
             Role::King => 5,
         };
         let place = DVec3::new(spot.file, spot.height, spot.rank) * SQUARE + DVec3::Y * FELT;
-        Object {
-            body: Placed::new(
-                self.pieces[solid].clone(),
-                translation(place) * self.facing.turn(piece) * scale(size),
-            ),
-            surface: self.surfaces[match piece.color {
-                Color::White => 0,
-                Color::Black => 1,
-            }]
-            .clone(),
-            seed: if self.room.is_some() { hash(1, identity.to_usize() as u64) } else { 0 },
-        }
+        let place = translation(place) * self.facing.turn(piece) * scale(size);
+        let surface = &self.surfaces[match piece.color {
+            Color::White => 0,
+            Color::Black => 1,
+        }];
+        let seed = if self.room.is_some() { hash(1, identity.to_usize() as u64) } else { 0 };
+        Object { seed, ..Object::placed(self.pieces[solid].clone(), place, surface.clone()) }
     }
 }

@@ -1,7 +1,7 @@
 //! Named cameras: from which side, how high and through which lens they show the board, and what
 //! of it they have to hold.
 
-use glam::DVec3;
+use glam::{DAffine3, DVec3};
 
 use super::board;
 use super::camera::Camera;
@@ -121,9 +121,6 @@ fn points(config: &Config, room: Room, reach: Reach, forward: DVec3) -> Vec<DVec
     };
     let outer = 3.5 * SQUARE + radius;
     let mut boxes = vec![board::bounds(), block(outer, outer, 0.0, man.max.y)];
-    if config.clock.show {
-        boxes.push(clock::bounds(&clock::place(forward)));
-    }
     if reach.moves || reach.captured {
         let [beside, along] = tray_reach(bodies);
         let [beside, along, table, capturable, ceiling] =
@@ -140,18 +137,26 @@ fn points(config: &Config, room: Room, reach: Reach, forward: DVec3) -> Vec<DVec
         let turn = rotation_y(-reach.orbit.clamp(-360.0, 360.0) * f64::from(step) / steps.max(1.0));
         translation(MIDDLE) * turn * translation(-MIDDLE)
     };
+    let mut corners: Vec<DVec3> = boxes.iter().flat_map(Bounds::corners).collect();
+    if config.clock.has_place() {
+        corners.extend(clock::corners(&clock_place(forward, bodies, reach)));
+    }
     (0..=steps as u32)
         .map(turned)
-        .flat_map(|turn| {
-            boxes.iter().flat_map(Bounds::corners).map(move |corner| turn.transform_point3(corner))
-        })
+        .flat_map(|turn| corners.iter().map(move |corner| turn.transform_point3(*corner)))
         .collect()
+}
+
+/// Where the clock stands for a camera that looks along `forward`.
+pub fn clock_place(forward: DVec3, bodies: &Bodies, reach: Reach) -> DAffine3 {
+    let has_room = reach.moves || reach.captured;
+    clock::place(forward, if has_room { tray_reach(bodies)[0] * SQUARE } else { 0.0 })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::VIEWS;
+    use crate::config::{ShowClock, VIEWS};
     use crate::scene::Projection;
     use crate::timeline::{Envelope, SLICE};
 
@@ -201,7 +206,7 @@ mod tests {
             (still, false, DVec3::new(-4.2, -1.6, 32.2)),
             (still, false, DVec3::new(0.0, 6.67, 28.0)),
             (still, false, DVec3::new(28.0, 6.67, 0.0)),
-            (still, true, DVec3::new(-10.5, 5.2, 20.0)),
+            (still, true, DVec3::new(-1.5, 5.2, 6.0)),
             (film, false, DVec3::new(34.4, 12.9, 28.0)),
             (film, false, DVec3::new(-7.4, 4.3, -3.0)),
         ];
@@ -210,9 +215,9 @@ mod tests {
                 for size in [[90, 160], [100, 100], [150, 100], [160, 90]] {
                     for (reach, clock, point) in points {
                         let mut config = config(view, orientation, size);
-                        config.clock.show = clock;
+                        config.clock.show = if clock { ShowClock::Game } else { ShowClock::No };
                         let camera = pinhole(&config, room(&bodies), reach);
-                        let place = clock::place(camera.axes()[2]);
+                        let place = clock_place(camera.axes()[2], &bodies, reach);
                         let point = if clock { place.transform_point3(point) } else { point };
                         let face = place.transform_vector3(DVec3::X);
                         assert!(face.dot(camera.axes()[2]) < 1e-9, "{name}, {orientation:?}");

@@ -8,6 +8,7 @@ mod camera;
 mod dials;
 mod film;
 mod flight;
+mod marks;
 mod motion;
 mod path;
 mod pieces;
@@ -32,6 +33,7 @@ use crate::notation::Placement;
 use camera::Track;
 use dials::Clock;
 use film::{Moment, Schedule, paced};
+use marks::marks;
 use motion::Motion;
 use pieces::Position;
 use plan::Plan;
@@ -103,6 +105,8 @@ pub struct Script {
 pub struct Timeline<'a> {
     script: &'a Script,
     positions: Vec<Position>,
+    /// What the board tells of each of them.
+    marks: Vec<Marks>,
     /// What leads from each position to the next.
     motions: Vec<Motion>,
     /// The ways of the pieces in each, once they were asked for.
@@ -132,6 +136,7 @@ impl<'a> Timeline<'a> {
         let mut timeline = Timeline {
             script,
             positions: Vec::with_capacity(last + 1 - first),
+            marks: (first..=last).map(|ply| marks(game, ply)).collect(),
             motions: Vec::with_capacity(last - first),
             plans: vec![OnceCell::new(); last - first],
             first_ply: first,
@@ -193,7 +198,8 @@ impl<'a> Timeline<'a> {
                 let plan = self.plans[moves]
                     .get_or_init(|| Plan::new(&self.motions[moves], position, &self.script.bodies));
                 let (placement, movers) = plan.under_way(position, passed);
-                Frame { placement, movers, ..self.at_rest(moves) }
+                let marks = self.marks[moves + 1].under_way();
+                Frame { placement, movers, marks, ..self.at_rest(moves) }
             }
         }
     }
@@ -204,6 +210,7 @@ impl<'a> Timeline<'a> {
             ply: self.first_ply + moves,
             identities: position.identities,
             taken: tray::movers(&position.taken, &self.script.bodies),
+            marks: self.marks[moves].clone(),
             ..Frame::still(position.placement)
         }
     }

@@ -80,7 +80,7 @@ impl<'a> Phong<'a> {
 
         let (material, place) = object.material(point, hit.normal);
         let finish = &material.finish;
-        let color = material.texture.color(place, length * walk.spread);
+        let color = object.color(material, place, length * walk.spread);
 
         let (mut scattered, mut highlights) = (Rgb::splat(finish.ambient), Rgb::ZERO);
         for light in &scene.lights {

@@ -153,7 +153,7 @@ impl<'a> Studio<'a> {
             outward,
             normal,
             material,
-            color: material.texture.color(place, seen),
+            color: object.color(material, place, seen),
         };
         let cosine = -ray.direction.dot(normal);
         if material.finish.transparency > 0.0 {

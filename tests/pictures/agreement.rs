@@ -13,7 +13,7 @@ use lightsquare::config::{Coat, Config, Finish, Look, Pose};
 use lightsquare::export::pov;
 use lightsquare::geometry::transform::{rotation_x, rotation_y, translation};
 use lightsquare::geometry::{
-    ControlPoint, Csg, Cuboid, Lathe, Normals, Outline, Placed, Prism, Profile, Sphere,
+    ControlPoint, Csg, Cuboid, Lathe, Normals, Outline, Prism, Profile, Sphere,
 };
 use lightsquare::scene::{Camera, Material, Object, Scene, Surface, Texture};
 use lightsquare::tracer::{Antialiasing, render};
@@ -163,7 +163,7 @@ fn object(solid: Csg, finish: Finish, color: [f64; 3], place: DAffine3) -> Objec
     let material =
         Material { finish, coat: Coat::default(), texture: Texture::Plain(color.into()) };
     let surface = Surface::Uniform(material);
-    Object { body: Placed::new(Arc::new(solid), place), surface, seed: 0 }
+    Object::placed(Arc::new(solid), place, surface)
 }
 
 fn control(points: &[(f64, f64, bool)]) -> Vec<ControlPoint> {

@@ -1,11 +1,12 @@
 //! Scenes for POV-Ray 3.7, such that it computes what the tracer computes.
 //!
-//! What differs, and is said in the file: coordinates on the frame, which it does not get; smooth
-//! normals (its lathes and prisms of straight segments are shaded flat), MIP levels (it reads bitmaps between four texels), a limit of the
-//! distance, and wood and marble, which become its own patterns of noise. It also sees nothing of
-//! a surface that touches glass from outside (it takes no hit within 0.001 of a ray's origin), and
-//! may see faces inside the union of transparent bodies where their walls lie in one plane. Where a
-//! face lies on the very border of two copies of a bitmap, it may take the other one.
+//! What differs, and is said in the file: marks on the squares and coordinates on the frame, which it
+//! does not get; smooth normals (its lathes and prisms of straight segments are shaded flat), MIP
+//! levels (it reads bitmaps between four texels), a limit of the distance, and wood and marble, which
+//! become its own patterns of noise. It also sees nothing of a surface that touches glass from outside
+//! (it takes no hit within 0.001 of a ray's origin), and may see faces inside the union of transparent
+//! bodies where their walls lie in one plane. Where a face lies on the very border of two copies of a
+//! bitmap, it may take the other one.
 
 macro_rules! line {
     ($writer:expr, $($format:tt)*) => {
@@ -126,6 +127,9 @@ impl Writer<'_> {
             self.solids.push(key);
             self.solids.len() - 1
         });
+        if object.paint.is_some() {
+            line!(self, "// Marks in lightsquare, none here.");
+        }
         line!(self, "object {{");
         line!(self, "  Solid{number}");
         self.surface(&object.surface);
