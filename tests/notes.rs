@@ -373,3 +373,55 @@ fn a_flag_falls_where_time_ends_the_game() {
         assert_eq!(read(&text("1. e4 e5 2. Qxh7")).clocks().flag(), None);
     }
 }
+
+/// Whatever stands there: no panic, every branch can be followed, and no time is negative.
+#[test]
+fn rubbish_is_survived() {
+    use proptest::prelude::*;
+    let words = prop::sample::select(vec![
+        "(",
+        ")",
+        "(1. d4 ",
+        "1. e4 ",
+        "e5 ",
+        "2. Nf3 ",
+        "Nf6 ",
+        "$1 ",
+        "$999 ",
+        "!? ",
+        "± ",
+        "{",
+        "}",
+        "{[%clk 0:00:0",
+        "9]} ",
+        "[%clk ",
+        "[%emt 0:00:05]",
+        "[%eval #-",
+        "[%csl Gd5,",
+        "]",
+        "; ",
+        "\n",
+        "1-0 ",
+        "* ",
+        "-- ",
+        "é",
+        "[TimeControl \"1/2:3+4\"]\n",
+        "[Termination \"time\"]\n",
+    ]);
+    proptest!(|(parts in prop::collection::vec(words, 0..60))| {
+        let text = parts.concat();
+        for scanned in Scanner::new(text.as_bytes()) {
+            let game = Game::read(scanned.unwrap(), 1);
+            for branch in game.branches() {
+                let variation = game.variation(&branch.path).unwrap();
+                let line = game.with_variation(&branch.path).unwrap();
+                prop_assert_eq!(line.plies.len(), variation.ply + variation.plies.len());
+            }
+            let clocks = game.clocks();
+            for ply in 0..=game.plies.len() {
+                let times = clocks.left(ply).into_iter().chain([clocks.thought(ply)]).flatten();
+                prop_assert!(times.into_iter().all(|seconds| seconds >= 0.0 && seconds.is_finite()));
+            }
+        }
+    });
+}

@@ -76,8 +76,8 @@ fn unnumbered(word: &str) -> [Option<Word>; 2] {
             _ => Word::Unknown,
         },
         _ => {
-            let glued = glyph::numbers(&word[bare.len()..]);
-            let glued = (!glued.is_empty()).then_some(Word::Annotation(glued));
+            let glued = &word[bare.len()..];
+            let glued = (!glued.is_empty()).then(|| Word::Annotation(glyph::numbers(glued)));
             return [Some(Word::Move(bare.to_owned())), glued];
         }
     };
