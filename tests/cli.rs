@@ -178,6 +178,19 @@ fn inspect_tells_a_line_a_game_and_a_row_a_position() {
 }
 
 #[test]
+fn inspect_tells_what_is_said_of_moves_and_variations() {
+    let (code, stdout, _) = run(&["inspect", "--notes", "tests/data/notes.pgn"]);
+    let rows: Vec<&str> = stdout.lines().collect();
+    assert_eq!((code, rows.len()), (0, 20), "{stdout}");
+    assert_eq!(rows[0], "game\tvariation\tply\tsan\tclk\temt\teval\tcsl\tcal\tnags");
+    assert_eq!(rows[1], "1\t-\t0\t-\t-\t-\t-\tGe4,Rd5\tGe2e4\t-");
+    assert_eq!(rows[5], "1\t-\t4\tNc6\t545\t-\t#12\t-\t-\t4");
+    assert_eq!(rows[18], "1\t1w-d4/1b-nf6/2w-nf3\t3\tNf3\t-\t-\t-\tYf3\t-\t1");
+    let (code, _, stderr) = run(&["inspect", "--notes", "--positions", "tests/data/notes.pgn"]);
+    assert_eq!(code, 2, "{stderr}");
+}
+
+#[test]
 fn diagrams_come_from_fens_strings_and_games() {
     let out = TempDir::new().unwrap();
     let pictures = [

@@ -44,15 +44,20 @@ impl Game {
         let control = self.tag("TimeControl").and_then(TimeControl::parse);
         let start = control.as_ref().map(TimeControl::start).or(self.start_notes.clock);
         let has_gains = gains(&self.plies);
-        let mut players = Color::ALL.map(|_| Player { left: start, owed: 0.0, has_moved: false });
-        let mut clocks = Clocks { left: vec![[start; 2]], ..Clocks::default() };
+        let mut players = [Color::White, Color::Black].map(|color| {
+            let first = self.plies.iter().find(|ply| ply.mover() == color);
+            Player::new(start, first.and_then(|ply| ply.notes.clock))
+        });
+        let mut clocks =
+            Clocks { left: vec![[players[0].left, players[1].left]], ..Clocks::default() };
         for ply in &self.plies {
+            let player = &mut players[ply.mover().fold_wb(0, 1)];
             let gain = match &control {
+                _ if player.is_berserk => Some(Gain::default()),
                 Some(control) => Some(control.gain(ply.number())),
                 // A clock that never goes up has no increment; what another one has is not known.
                 None => (!has_gains).then(Gain::default),
             };
-            let player = &mut players[ply.mover().fold_wb(0, 1)];
             clocks.thought.push(player.moves(ply, gain));
             clocks.left.push([players[0].left, players[1].left]);
         }
@@ -100,6 +105,8 @@ struct Player {
     /// period's moves are made, some when its time is up.
     owed: f64,
     has_moved: bool,
+    /// Whether the player gave up half the time, and the increment, as some servers allow.
+    is_berserk: bool,
 }
 
 /// What a move puts on a clock, in seconds.
@@ -111,6 +118,12 @@ struct Gain {
 }
 
 impl Player {
+    /// A player who begins with `start` seconds, and of whose first clock the game says `first`.
+    fn new(start: Option<f64>, first: Option<f64>) -> Player {
+        let half = start.map(|start| start / 2.0).filter(|half| first == Some(*half));
+        Player { left: half.or(start), owed: 0.0, has_moved: false, is_berserk: half.is_some() }
+    }
+
     /// Makes a move; gives the seconds that it took.
     fn moves(&mut self, ply: &Ply, gain: Option<Gain>) -> Option<f64> {
         let is_first = !std::mem::replace(&mut self.has_moved, true);
@@ -186,7 +199,7 @@ impl TimeControl {
                     period = next;
                 }
                 (Some(moves), next) => {
-                    let is_last = rest % moves == 0;
+                    let is_last = rest.is_multiple_of(moves);
                     let seconds = if is_last { next.unwrap_or(period).seconds } else { 0.0 };
                     return Gain { increment: period.increment, period: seconds };
                 }

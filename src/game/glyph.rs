@@ -1,5 +1,7 @@
 //! Glyphs and their numbers: the numeric annotation glyphs (NAGs) of the PGN standard.
 
+use super::word::ascii_dashes;
+
 /// Glyphs of moves, from number 1.
 const OF_MOVES: [&str; 6] = ["!", "?", "!!", "??", "!?", "?!"];
 
@@ -42,8 +44,9 @@ pub fn of_position(nag: u8) -> Option<&'static str> {
 /// have no number are passed over.
 pub fn numbers(text: &str) -> Vec<u8> {
     let known = || (1..).zip(OF_MOVES).chain(OF_POSITIONS).chain(OTHERS);
+    let text = ascii_dashes(text);
     let mut numbers = Vec::new();
-    let mut rest = text;
+    let mut rest = text.as_str();
     while let Some(next) = rest.chars().next() {
         let longest = known()
             .filter(|(_, glyph)| rest.starts_with(glyph))

@@ -53,6 +53,9 @@ pub fn replay(scanned: ScannedGame, number: usize) -> Game {
     }
 }
 
+/// Half-moves that few games have more of.
+const USUAL_LENGTH: usize = 256;
+
 /// What could be played of a line.
 #[derive(Default)]
 struct Played {
@@ -68,7 +71,7 @@ impl Played {
     fn of(line: Line, start: &Chess, ply: usize, shift: i64) -> Played {
         let Line { mut tokens, movetext, variations, mut problems, .. } = line;
         let reading = movetext::read(&tokens, &movetext);
-        let mut plies = Vec::new();
+        let mut plies = Vec::with_capacity(tokens.len().min(USUAL_LENGTH));
         problems.extend(play(start.clone(), &tokens, &reading, shift, &mut plies));
         for (ply, token) in plies.iter_mut().zip(&mut tokens) {
             ply.notes = token.notes.take().map(|notes| *notes).unwrap_or_default();

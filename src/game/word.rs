@@ -70,28 +70,34 @@ fn unnumbered(word: &str) -> [Option<Word>; 2] {
             Word::Annotation(Vec::new())
         }
         0 if is_null(bare) => Word::Move(bare.to_owned()),
-        // Dashes alone stand for a move that is not there.
-        0 if word.trim_matches(['-', '/', '=']).is_empty() && !word.contains('=') => Word::Unknown,
-        0 if word.chars().all(|c| SYMBOLS.contains(c)) => Word::Annotation(glyph::numbers(word)),
+        0 if is_annotation(&ascii_dashes(word)) => Word::Annotation(glyph::numbers(word)),
         0 | 1 => match bare.as_bytes() {
             [letter @ b'A'..=b'Z'] => Word::Letter(char::from(*letter)),
             _ => Word::Unknown,
         },
         _ => {
-            let glued = glyph::numbers(&word[bare.len()..]);
-            let glued = (!glued.is_empty()).then_some(Word::Annotation(glued));
+            let glued = &word[bare.len()..];
+            let glued = (!glued.is_empty()).then(|| Word::Annotation(glyph::numbers(glued)));
             return [Some(Word::Move(bare.to_owned())), glued];
         }
     };
     [Some(word), None]
 }
 
+/// Whether signs alone are an evaluation or a glyph. Dashes alone stand for a move that is not there.
+fn is_annotation(signs: &str) -> bool {
+    let is_dashed = signs.trim_matches(['-', '/', '=']).is_empty() && !signs.contains('=');
+    !is_dashed && signs.chars().all(|c| SYMBOLS.contains(c))
+}
+
 const GLYPHS: [char; 3] = ['!', '?', '.'];
 
 /// A move without the evaluation that is glued to it (`Nf3+-`, but `Nf3+` is a check).
 fn without_evaluation(word: &str) -> &str {
-    const EVALUATIONS: [&str; 13] =
-        ["+/-", "-/+", "+/=", "=/+", "+-", "-+", "+=", "=+", "=", "±", "∓", "⩲", "⩱"];
+    const EVALUATIONS: [&str; 18] = [
+        "+/-", "-/+", "+/=", "=/+", "+-", "-+", "+−", "−+", "+–", "–+", "+=", "=+", "=", "±", "∓",
+        "⩲", "⩱", "∞",
+    ];
     EVALUATIONS
         .iter()
         .find_map(|evaluation| word.strip_suffix(evaluation))
@@ -215,6 +221,10 @@ mod tests {
             ("Nf3+", vec![a_move("Nf3+")]),
             ("O-O=", vec![a_move("O-O"), glyphs(&[10])]),
             ("+-", vec![glyphs(&[18])]),
+            ("+–", vec![glyphs(&[18])]),
+            ("Nc6∞", vec![a_move("Nc6"), glyphs(&[13])]),
+            ("Nc6−+", vec![a_move("Nc6"), glyphs(&[19])]),
+            ("—", vec![Word::Unknown]),
             ("=", vec![glyphs(&[10])]),
             ("!?", vec![glyphs(&[5])]),
             ("$12", vec![glyphs(&[12])]),
