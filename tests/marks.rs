@@ -6,7 +6,7 @@ use lightsquare::config::{Config, Look};
 use lightsquare::game::{Game, Notes, Scanner};
 use lightsquare::notation::{Arrow, Circle, Placement, Square};
 use lightsquare::scene::{Object, Reach, SQUARE, Scene, Stage};
-use lightsquare::timeline::{Film, Frame, Marks, Timeline};
+use lightsquare::timeline::{Frame, Marks, Script, Timeline};
 use lightsquare::tracer::{Antialiasing, render};
 
 fn game(text: &str) -> Game {
@@ -18,7 +18,8 @@ fn game(text: &str) -> Game {
 
 fn end(game: &Game) -> Marks {
     let plies = game.plies.len();
-    Timeline::new(game, plies, plies, None, 0.0).frame(0).marks
+    let script = Script::default();
+    Timeline::new(game, plies, plies, &script).unwrap().frame(0).marks
 }
 
 fn square(name: &str) -> Square {
@@ -91,7 +92,8 @@ fn annotated() -> Game {
 #[test]
 fn drawn_marks_are_those_of_the_position() {
     let game = annotated();
-    let timeline = Timeline::new(&game, 1, 4, None, 0.0);
+    let script = Script::default();
+    let timeline = Timeline::new(&game, 1, 4, &script).unwrap();
     let drawn: Vec<usize> = (0..4)
         .map(|index| timeline.frame(index).marks)
         .map(|marks| marks.circles.len() + marks.arrows.len())
@@ -102,7 +104,8 @@ fn drawn_marks_are_those_of_the_position() {
 #[test]
 fn a_move_under_way_has_its_own_squares_and_nothing_else() {
     let game = annotated();
-    let timeline = Timeline::new(&game, 0, 4, Some(Film::default()), 0.0);
+    let script = Script { animate: true, ..Script::default() };
+    let timeline = Timeline::new(&game, 0, 4, &script).unwrap();
     let frames: Vec<Frame> = (0..timeline.frames()).map(|index| timeline.frame(index)).collect();
     let mut moving = 0;
     for frame in frames.iter().filter(|frame| !frame.movers.is_empty()) {
