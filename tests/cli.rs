@@ -269,7 +269,7 @@ fn bad_input_gets_a_sentence_and_leaves_nothing_behind() {
         (
             &["render", "game.pgn", "--animate", "--pause", "-1"],
             2,
-            "'--pause <S>': expected a number from 0",
+            "'--pause <S|real>': expected a number from 0 to 3600, or real",
         ),
         (&["render", "game.pgn", "--orbit", "NaN"], 2, "'--orbit <DEG>': expected a number"),
         (

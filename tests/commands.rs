@@ -137,7 +137,7 @@ fn bad_thesis_lines_and_settings_get_a_sentence() {
             &["diagram", "--white", "KE1", "--camera", "wite"],
             2,
             "invalid value 'wite' for '--camera <NAME>'\n  [possible values: white, black, top, side, \
-             player, thesis, free]\n\n  tip: a similar value exists: 'white'",
+             player, mover, follow, thesis, free, path]\n\n  tip: a similar value exists: 'white'",
         ),
         (
             &["diagram", "--white", "KE1", "--orientation", "red"],

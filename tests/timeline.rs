@@ -296,13 +296,9 @@ fn the_clock_shows_what_is_left_and_runs_down_in_the_pause() {
     let expected: Vec<u32> = (55..=60).rev().chain((37..=57).rev()).chain([39]).collect();
     assert!(seconds.iter().all(|second| expected.contains(second)), "{seconds:?}");
     assert!(seconds.len() > 20, "{seconds:?}");
-    // Black's flag falls while the last position stands, and not before.
-    assert_eq!(shown.last(), Some(&times([39, 1], black)));
-    let film = Film { result: 1.0, ..Film::default() };
-    assert_eq!(
-        dials(&game, Script { film, animate: true, ..Script::default() }).last(),
-        Some(&times([39, 0], black))
-    );
+    // Black's flag falls while the last position stands, 3 s of its 5, and not before.
+    let fallen = shown.iter().filter(|dials| **dials == times([39, 0], black)).count();
+    assert_eq!((fallen, shown.last()), (50, Some(&times([39, 0], black))));
 }
 
 #[test]

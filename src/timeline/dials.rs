@@ -5,6 +5,9 @@ use super::film::Moment;
 use crate::game::{Clocks, Game};
 use crate::notation::Color;
 
+/// The part of the last position's time after which a flag falls.
+const FLAGGING: f64 = 0.6;
+
 /// The clock of one game.
 pub struct Clock {
     clocks: Clocks,
@@ -49,7 +52,7 @@ impl Clock {
         if flags && runs {
             // What was left when this player was to move, down to nothing.
             let before = self.clocks.left(ply.saturating_sub(1))[player.fold_wb(0, 1)];
-            *own = before.map(|before| before * (1.0 - passed));
+            *own = before.map(|before| before * (1.0 - passed / FLAGGING).max(0.0));
         } else if let (Some(left), Some(thought)) = (*own, self.clocks.thought(ply + 1)) {
             *own = Some((left - thought * passed).max(0.0));
         }
