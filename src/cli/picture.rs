@@ -58,6 +58,9 @@ pub struct PictureArgs {
     /// Name files and ranks on the board's frame
     #[arg(long)]
     coordinates: bool,
+    /// A strip of words below the scene: players, the move, the tournament, who stands better
+    #[arg(long)]
+    captions: bool,
     /// Wood and marble as plain colours
     #[arg(long)]
     plain: bool,
@@ -140,6 +143,7 @@ impl PictureArgs {
         if self.coordinates {
             config.parts.coordinates = Some(true);
         }
+        config.captions.show |= self.captions;
         config.render.plain |= self.plain;
         if self.transparent {
             (config.parts.background, config.parts.table) = (Some(None), Some(None));

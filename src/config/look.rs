@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use super::{
-    Camera, Clock, Config, FARTHEST, Filter, Knights, Light, Normals, Orientation, Parts, Pose,
-    Render, Room, Sampling, Shading, View, shelf, theme,
+    Camera, Captions, Clock, Config, FARTHEST, Filter, Knights, Light, Normals, Orientation, Parts,
+    Pose, Render, Room, Sampling, Shading, View, shelf, theme,
 };
 
 /// How pictures look before any setting: a starting point for all of them.
@@ -71,6 +71,7 @@ fn thesis() -> Config {
         themes: theme::themes(),
         parts: Parts::default(),
         clock: Clock { show: false, white: 0, black: 0, case: "frame".to_owned() },
+        captions: Captions::default(),
         models: Vec::new(),
         materials: BTreeMap::new(),
     }

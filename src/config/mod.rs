@@ -3,6 +3,7 @@
 //! A new key is a field of a settings type and a line in the table of its section.
 
 mod camera;
+mod captions;
 mod checks;
 mod ini;
 mod keys;
@@ -17,6 +18,7 @@ mod theme;
 mod values;
 
 pub use camera::{Camera, ORIENTATIONS, Orientation, Pose, VIEWS, View};
+pub use captions::{Captions, Tone};
 pub use keys::unknown;
 pub use look::Look;
 pub use material::{Axis, Coat, Finish, Mapping, Material, Texture};
@@ -63,6 +65,7 @@ pub struct Config {
     /// Which way pieces look.
     pub knights: Knights,
     pub clock: Clock,
+    pub captions: Captions,
     pub models: Vec<Model>,
     /// By name, in small letters; every name that the other settings use is here.
     pub materials: BTreeMap<String, Material>,

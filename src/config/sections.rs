@@ -10,13 +10,13 @@ use super::values::{
 };
 use super::{
     Clock, Config, FARTHEST, Fault, Filter, Knights, Light, MAX_RAYS, MAX_SIDE, Model, Normals,
-    Render, Room, Sampling, Shading, Shape, camera, material, model, theme,
+    Render, Room, Sampling, Shading, Shape, camera, captions, material, model, theme,
 };
 
 const MAX_LIGHTS: u32 = 100;
 const MAX_MODELS: u32 = 1000;
 
-const SECTIONS: [&str; 11] = [
+const SECTIONS: [&str; 12] = [
     "GlobalSettings",
     "Camera",
     "Light0",
@@ -26,6 +26,7 @@ const SECTIONS: [&str; 11] = [
     "Board",
     "Pieces",
     "Clock",
+    "Captions",
     "Material white",
     "Theme wood",
 ];
@@ -179,6 +180,9 @@ pub fn interpret(
                 let lines = read_section(section, &CLOCK_KEYS, &mut config.clock, faults);
                 uses.push(Use::new(&lines, "Case", &config.clock.case));
             }
+            "captions" => {
+                read_section(section, &captions::KEYS, &mut config.captions, faults);
+            }
             "theme" | "material" => {
                 let message = format!("[{}] has no name, expected one behind it", section.name);
                 faults.push(Fault { line: section.line, message });
@@ -324,6 +328,7 @@ pub fn show(config: &Config) -> String {
     show_section("Board", &theme::BOARD_KEYS, &config.parts, &mut out);
     show_section("Pieces", &PIECES_KEYS, config, &mut out);
     show_section("Clock", &CLOCK_KEYS, &config.clock, &mut out);
+    show_section("Captions", &captions::KEYS, &config.captions, &mut out);
     for (number, model) in config.models.iter().enumerate() {
         show_section(&format!("Model{number}"), &model::KEYS, model, &mut out);
     }

@@ -12,6 +12,7 @@ mod glyph;
 mod line;
 mod movetext;
 mod notes;
+mod outcome;
 mod replay;
 mod scan;
 mod select;
@@ -22,6 +23,7 @@ mod word;
 
 pub use clock::Clocks;
 pub use notes::{Eval, Notes};
+pub use outcome::Ending;
 pub use scan::{ScannedGame, Scanner};
 pub use select::{Absent, Moment, ParseMomentError, ParseSelectionError, Selection};
 pub use source::{Source, SourceError};

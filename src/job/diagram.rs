@@ -38,14 +38,17 @@ pub fn diagram(
     progress: &dyn Progress,
     stdout: &mut dyn Write,
 ) -> Result<DiagramSummary, JobError> {
-    let shot = job.subject.read(progress)?;
+    let shot = job.subject.read(job.picture.config.captions, progress)?;
     keep_inputs(&job.subject, &job.picture, &job.output)?;
-    let mut studio = Studio::new(&job.picture, Reach::default())?;
+    let mut settings = job.picture.clone();
+    // Where nothing is known there is no strip.
+    settings.config.captions.show &= shot.content.is_some();
+    let mut studio = Studio::new(&settings, Reach::default())?;
     let to_stdout = job.output == Path::new("-");
     if !to_stdout {
         prepare_file(&job.output)?;
     }
-    let picture = studio.picture(&shot.frame);
+    let picture = studio.picture(&shot.frame, shot.content.as_ref());
     if to_stdout {
         encode_png(&picture, &shot.texts, job.dpi, stdout).map_err(JobError::Write)?;
     } else {

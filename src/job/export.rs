@@ -31,7 +31,7 @@ pub fn export(
     progress: &dyn Progress,
     stdout: &mut dyn Write,
 ) -> Result<bool, JobError> {
-    let shot = job.subject.read(progress)?;
+    let shot = job.subject.read(job.picture.config.captions, progress)?;
     let scene = stage(&job.picture, Reach::default())?.scene(&shot.frame);
     let config = &job.picture.config;
     let stem = job.output.file_stem().map_or("scene".into(), |stem| stem.to_string_lossy());

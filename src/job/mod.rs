@@ -4,6 +4,7 @@
 //! a summary or its error. It writes where it is told to, and never prints.
 
 mod bench;
+mod captions;
 mod diagram;
 mod export;
 mod inspect;
@@ -24,6 +25,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::assets::AssetError;
+use crate::caption::CaptionError;
 use crate::game::{Game, Moment, Selection, SourceError, printable};
 use crate::output::OutputError;
 use crate::scene::StageError;
@@ -52,6 +54,8 @@ pub enum JobError {
     TooLong { file: String, game: usize, frames: usize },
     #[error(transparent)]
     Assets(#[from] AssetError),
+    #[error(transparent)]
+    Caption(#[from] CaptionError),
     #[error(transparent)]
     Stage(#[from] StageError),
     #[error("{threads} threads cannot be started")]

@@ -4,6 +4,7 @@ use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use super::captions::GameCaptions;
 use super::report::{FrameRow, Manifest, ReportLine, Status, tags, texts};
 use super::studio::{PictureSettings, Studio};
 use super::{JobError, MAX_FRAMES, Progress, say_missing, say_problems, shown};
@@ -249,25 +250,20 @@ impl Run<'_> {
         let players = [Color::White, Color::Black].map(|color| shortened(game.player(color), 60));
         self.progress.game(&players.join(" – "));
         let timeline = Timeline::new(game, part.first, part.last, self.job.film, self.job.orbit);
+        let captions = GameCaptions::new(game, self.job.picture.config.captions);
         let mut rows = Vec::new();
-        let mut shown_last = None;
         for index in 0..timeline.frames() {
             if self.progress.is_cancelled() {
                 self.summary.cancelled = true;
                 break;
             }
             let frame = timeline.frame(index);
-            // A pause is one picture many times over.
-            let picture = match shown_last.take() {
-                Some((last, picture)) if frame.shows_the_same(&last) => picture,
-                _ => self.studio.picture(&frame),
-            };
+            let picture = self.studio.picture(&frame, captions.of(&frame).as_ref());
             let name = frame_name(index);
             write_png(&folder.join(&name), &picture, &texts(game, &frame), None)?;
             rows.push(FrameRow::new(name, game, &frame));
             self.progress.frame_done();
             self.summary.frames += 1;
-            shown_last = Some((frame, picture));
         }
         let manifest = Manifest {
             file: &batch.file,

@@ -3,9 +3,12 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use super::captions::{self, GameCaptions};
 use super::report::texts;
 use super::studio::PictureSettings;
 use super::{JobError, Progress, say_problems, shown};
+use crate::caption::Content;
+use crate::config::Captions;
 use crate::game::{Game, Moment, Source};
 use crate::notation::Placement;
 use crate::timeline::{Frame, Timeline};
@@ -23,17 +26,28 @@ pub enum Subject {
 pub(super) struct Shot {
     pub frame: Frame,
     pub texts: Vec<(&'static str, String)>,
+    /// What a caption says; `None` where nothing is known.
+    pub content: Option<Content>,
     /// Whether the whole game could be read, where it comes from one.
     pub is_whole: bool,
 }
 
 impl Subject {
     /// Reads the position.
-    pub(super) fn read(&self, progress: &dyn Progress) -> Result<Shot, JobError> {
+    pub(super) fn read(
+        &self,
+        captions: Captions,
+        progress: &dyn Progress,
+    ) -> Result<Shot, JobError> {
         let (file, number, at) = match self {
             Subject::Placement { placement, fen } => {
                 let frame = Frame::still(*placement);
-                return Ok(Shot { frame, texts: vec![("FEN", fen.clone())], is_whole: true });
+                return Ok(Shot {
+                    frame,
+                    texts: vec![("FEN", fen.clone())],
+                    content: captions::of_fen(fen, captions),
+                    is_whole: true,
+                });
             }
             Subject::Game { file, number, at } => (file, *number, *at),
         };
@@ -44,7 +58,7 @@ impl Subject {
             games = game.number;
             if game.number == number {
                 say_problems(&name, &game, progress);
-                return shot(name, &game, at);
+                return shot(name, &game, at, captions);
             }
         }
         Err(JobError::NothingSelected { file: name, games })
@@ -71,7 +85,7 @@ pub(super) fn keep_inputs(
     Ok(())
 }
 
-fn shot(file: String, game: &Game, at: Moment) -> Result<Shot, JobError> {
+fn shot(file: String, game: &Game, at: Moment, captions: Captions) -> Result<Shot, JobError> {
     if !game.start_is_known {
         return Err(JobError::NoPosition { file, game: game.number });
     }
@@ -83,5 +97,6 @@ fn shot(file: String, game: &Game, at: Moment) -> Result<Shot, JobError> {
         end: game.moment_name(game.plies.len()),
     })?;
     let frame = Timeline::new(game, ply, ply, None, 0.0).frame(0);
-    Ok(Shot { texts: texts(game, &frame), frame, is_whole: game.is_whole() })
+    let content = GameCaptions::new(game, captions).of(&frame);
+    Ok(Shot { texts: texts(game, &frame), content, frame, is_whole: game.is_whole() })
 }

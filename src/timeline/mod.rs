@@ -92,9 +92,9 @@ impl Frame {
         }
     }
 
-    /// Whether both frames are the same picture, whatever their times.
+    /// Whether both frames show the same scene, whatever their times and words.
     pub fn shows_the_same(&self, other: &Frame) -> bool {
-        let bare = |frame: &Frame| Frame { time: 0.0, ply: 0, ..frame.clone() };
+        let bare = |frame: &Frame| Frame { time: 0.0, ply: 0, card: None, ..frame.clone() };
         bare(self) == bare(other)
     }
 }
