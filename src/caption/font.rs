@@ -73,7 +73,9 @@ impl Face {
 
     /// Whether `letter` has a glyph, or is a sign of ours.
     pub fn has(&self, letter: char) -> bool {
-        self.font.glyph_id(letter).0 != 0 || signs::is_sign(letter)
+        // What stands in the private area is the font's own secret, not what was written.
+        let is_private = ('\u{e000}'..='\u{f8ff}').contains(&letter);
+        !is_private && (self.font.glyph_id(letter).0 != 0 || signs::is_sign(letter))
     }
 
     /// `text` in letters that can be drawn: accents put together with their letters, what the face

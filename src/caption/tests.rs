@@ -59,10 +59,10 @@ fn other_letters_are_transliterated() {
         ("李超", "Li Chao"),
         ("Արոնյան", "Aronyan"),
         ("ადამია", "adamia"),
-        ("♘f3", "f3"),
+        ("♘f3", "Nf3"),
         ("e\u{301}a\u{308}", "éä"),
         ("  a\tb\u{7}\n", "a b"),
-        ("\u{200b}", ""),
+        ("\u{e000}", ""),
     ] {
         assert_eq!(fonts.face(Weight::Bold).spelled(text), spelled, "{text}");
     }
@@ -99,7 +99,7 @@ fn a_line_shrinks_before_it_is_cut() {
     assert!(long.fitted(&fonts, -5.0).is_empty());
     // No blank, no comma before what is left out.
     let cut = line("Nepomniachtchi, Ian Alexandrovich");
-    let room = line("Nepomniachtchi, I").width(&fonts) * 0.78;
+    let room = line("Nepomniachtchi…").width(&fonts) * 0.801;
     assert_eq!(cut.fitted(&fonts, room).text(), "Nepomniachtchi…");
 }
 
@@ -272,7 +272,7 @@ fn strips_of_all_sizes_can_be_drawn() {
 
 #[test]
 fn cards_need_no_strip_and_fit_any_size() {
-    for (width, height) in [(1, 1), (16, 16), (120, 80), (300, 40), (40, 300)] {
+    for (width, height) in [(1, 1), (16, 16), (120, 80), (300, 60), (60, 300)] {
         let mut config = config(width, height);
         config.captions.show = false;
         let caption = Caption::new(&config).unwrap();
@@ -284,7 +284,7 @@ fn cards_need_no_strip_and_fit_any_size() {
             let [said, silent] = [said, silent].map(|content| caption.draw(&scene, &content));
             assert_eq!(said.dimensions(), (width, height));
             assert!(!said.color().has_alpha());
-            assert_eq!(said != silent, width.min(height) >= 80, "{width} x {height}");
+            assert_eq!(said != silent, width.min(height) >= 60, "{width} x {height}");
         }
     }
 }

@@ -236,3 +236,235 @@ fn ending(game: &Game) -> String {
     };
     known.to_owned()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::game::Scanner;
+    use crate::timeline::{Film, Timeline};
+
+    const OPERA: &str = "[Event \"Paris\"]\n[Site \"Paris FRA\"]\n[Date \"1858.11.??\"]\n\
+                         [Round \"?\"]\n[White \"Morphy, Paul\"]\n[WhiteElo \"2690\"]\n\
+                         [WhiteTitle \"GM\"]\n[BlackElo \"?\"]\n[Result \"1-0\"]\n\n";
+
+    const SCHOLARS: &str = "1. e4 e5 2. Bc4 Nc6 3. Qh5 Nf6 4. Qxf7# 1-0";
+
+    fn game(text: &str) -> Game {
+        let scanned = Scanner::new(text.as_bytes()).next().unwrap().unwrap();
+        Game::read(scanned, 1)
+    }
+
+    fn shown() -> Captions {
+        Captions { show: true, ..Captions::default() }
+    }
+
+    /// The content of each position.
+    fn contents(game: &Game, settings: Captions) -> Vec<Content> {
+        let timeline = Timeline::new(game, 0, game.plies.len(), None, 0.0);
+        let captions = GameCaptions::new(game, settings);
+        (0..timeline.frames()).filter_map(|index| captions.of(&timeline.frame(index))).collect()
+    }
+
+    #[test]
+    fn a_strip_says_who_plays_what_and_where() {
+        let game = game(&format!("{OPERA}{SCHOLARS}"));
+        let contents = contents(&game, shown());
+        let [start, second, last] = [&contents[0], &contents[2], &contents[7]];
+        let [white, black] = &start.players;
+        assert_eq!([&white.title, &white.name, &white.rating], ["GM", "Morphy, Paul", "2690"]);
+        assert_eq!([&black.title, &black.name, &black.rating], ["", "Black", ""]);
+        assert_eq!(start.occasion, ["Paris FRA", "November 1858"]);
+        assert_eq!([&start.moved, &second.moved, &last.moved], ["", "1… e5", "4. Qxf7#"]);
+        assert_eq!([&start.result, &second.result, &last.result], ["", "", "1–0"]);
+        let to_move = [start, &contents[1], last].map(|content| content.to_move);
+        assert_eq!(to_move, [Some(Color::White), Some(Color::Black), None]);
+        assert!(contents.iter().all(|content| content.gauge.is_none() && content.card.is_none()));
+    }
+
+    #[test]
+    fn numbers_are_those_of_the_start() {
+        let fen = "[FEN \"4k3/8/8/8/8/8/4P3/4K3 b - - 0 37\"]\n\n37... Kd7 38. e4 *";
+        let moved: Vec<String> =
+            contents(&game(fen), shown()).into_iter().map(|content| content.moved).collect();
+        assert_eq!(moved, ["", "37… Kd7", "38. e4"]);
+    }
+
+    #[test]
+    fn the_move_under_way_is_the_one_that_is_named() {
+        let game = game("1. e4 e5 2. Nf3 *");
+        let timeline = Timeline::new(&game, 0, 3, Some(Film::default()), 0.0);
+        let captions = GameCaptions::new(&game, shown());
+        let mut seen = Vec::new();
+        for index in 0..timeline.frames() {
+            let frame = timeline.frame(index);
+            let content = captions.of(&frame).unwrap();
+            seen.push((!frame.movers.is_empty(), content.moved, content.to_move.unwrap()));
+        }
+        seen.dedup();
+        let (white, black) = (Color::White, Color::Black);
+        let expected = [
+            (false, "", white),
+            (true, "1. e4", white),
+            (false, "1. e4", black),
+            (true, "1… e5", black),
+            (false, "1… e5", white),
+            (true, "2. Nf3", white),
+            (false, "2. Nf3", black),
+        ];
+        assert_eq!(seen, expected.map(|(moving, san, turn)| (moving, san.to_owned(), turn)));
+    }
+
+    #[test]
+    fn each_part_can_be_left_out() {
+        let mut game = game(&format!("{OPERA}{SCHOLARS}"));
+        game.plies[3].notes.eval = Some(Eval::Pawns(0.3));
+        let whole = shown();
+        let last = |settings: Captions| contents(&game, settings).pop();
+        assert_eq!(last(Captions { show: false, ..whole }), None);
+        let said = |settings: Captions| {
+            let Content { players, moved, occasion, result, gauge, .. } = last(settings).unwrap();
+            let names = players.iter().any(|player| *player != Player::default());
+            [names, !moved.is_empty(), !occasion.is_empty(), !result.is_empty(), gauge.is_some()]
+        };
+        assert_eq!(said(whole), [true; 5]);
+        for (settings, expected) in [
+            (Captions { players: false, ..whole }, [false, true, true, true, true]),
+            (Captions { moved: false, ..whole }, [true, false, true, true, true]),
+            (Captions { event: false, ..whole }, [true, true, false, false, true]),
+            (Captions { eval: false, ..whole }, [true, true, true, true, false]),
+        ] {
+            assert_eq!(said(settings), expected, "{settings:?}");
+        }
+    }
+
+    #[test]
+    fn a_judgement_holds_until_the_next() {
+        let mut game = game(SCHOLARS);
+        game.plies[0].notes.eval = Some(Eval::Pawns(0.2));
+        game.plies[5].notes.eval = Some(Eval::Mate(1));
+        let labels: Vec<String> = contents(&game, shown())
+            .into_iter()
+            .map(|content| content.gauge.unwrap().label)
+            .collect();
+        assert_eq!(labels, ["", "+0.2", "+0.2", "+0.2", "+0.2", "+0.2", "#1", "#"]);
+        // After the mate the bar is the winner's.
+        assert_eq!(contents(&game, shown())[7].gauge, Some(Gauge::mated(Color::Black)));
+    }
+
+    #[test]
+    fn the_result_waits_for_the_end_and_for_certainty() {
+        for (text, expected) in [
+            ("1. e4 e5 1/2-1/2", "½–½"),
+            ("1. e4 e5 0-1", "0–1"),
+            ("1. e4 e5 *", ""),
+            ("1. e4 e5 2. Qxe9 1-0", ""),
+        ] {
+            let last = contents(&game(text), shown()).pop().unwrap();
+            assert_eq!(last.result, expected, "{text}");
+            assert_eq!(last.to_move.is_none(), !expected.is_empty(), "{text}");
+        }
+    }
+
+    #[test]
+    fn cards_are_there_without_a_strip_and_say_all() {
+        let game = game(&format!("{OPERA}{SCHOLARS}"));
+        let nothing = Captions { players: false, event: false, ..Captions::default() };
+        let captions = GameCaptions::new(&game, nothing);
+        let card = |ply: usize, card| {
+            let frame = Timeline::new(&game, ply, ply, None, 0.0).frame(0);
+            captions.of(&Frame { card: Some(card), ..frame }).unwrap()
+        };
+        let title = card(0, timeline::Card::Title);
+        assert_eq!(
+            [title.card, captions.of(&Frame::still(game.placement(0))).and(None)],
+            [Some(Card::Title), None]
+        );
+        assert_eq!(title.players[0].name, "Morphy, Paul");
+        assert_eq!([&title.result, &title.ending], ["", ""]);
+        let result = card(7, timeline::Card::Result);
+        assert_eq!([&result.result, &result.ending], ["1–0", "Checkmate"]);
+        assert_eq!(result.occasion, ["Paris FRA", "November 1858"]);
+    }
+
+    #[test]
+    fn endings_are_told_where_they_are_known() {
+        let stalemate = "[FEN \"7k/8/5KQ1/8/8/8/8/8 w - - 0 1\"]\n\n1. Qf7 1/2-1/2";
+        let bare = "[FEN \"7k/5p2/5K2/8/8/8/8/8 w - - 0 1\"]\n\n1. Kxf7 1/2-1/2";
+        for (termination, moves, expected) in [
+            ("Normal", SCHOLARS, "Checkmate"),
+            ("Time forfeit", SCHOLARS, "Checkmate"),
+            ("Normal", stalemate, "Stalemate"),
+            ("?", bare, "Neither side can mate"),
+            ("Normal", "1. e4 1-0", ""),
+            ("Time forfeit", "1. e4 1-0", "White wins on time"),
+            ("time forfeit", "1. e4 0-1", "Black wins on time"),
+            ("Time forfeit", "1. e4 1/2-1/2", "Time ran out"),
+            ("Hou won by resignation", "1. e4 1-0", "Hou won by resignation"),
+            ("abandoned", "1. e4 *", "Abandoned"),
+            ("whatever", "1. e4 *", ""),
+        ] {
+            let separator = if moves.starts_with('[') { "" } else { "\n" };
+            let text = format!("[Termination \"{termination}\"]\n{separator}{moves}");
+            assert_eq!(ending(&game(&text)), expected, "{text}");
+        }
+    }
+
+    #[test]
+    fn dates_and_places_are_written_as_people_do() {
+        for (text, expected) in [
+            ("1858.11.02", Some("2 November 1858")),
+            ("1858.11.??", Some("November 1858")),
+            ("1858.??.??", Some("1858")),
+            ("1858.13.40", Some("1858")),
+            ("????.??.??", None),
+            ("1858", Some("1858")),
+            ("??", None),
+        ] {
+            assert_eq!(date(text).as_deref(), expected, "{text}");
+        }
+        for (text, expected) in [
+            ("Paris FRA", "Paris FRA"),
+            ("https://lichess.org/ENPo6ReH", "lichess.org"),
+            ("https://www.chess.com", "chess.com"),
+        ] {
+            assert_eq!(place(text), expected);
+        }
+    }
+
+    #[test]
+    fn glyphs_stand_at_the_move_and_behind_it() {
+        for (glyphs_of, expected) in [
+            (vec![], ""),
+            (vec![3], "!!"),
+            (vec![6, 14], "?! ⩲"),
+            (vec![19, 2], "? −+"),
+            (vec![140, 1], "!"),
+        ] {
+            let notes = Notes { glyphs: glyphs_of, ..Notes::default() };
+            assert_eq!(glyphs(&notes), expected);
+        }
+    }
+
+    #[test]
+    fn times_are_written_as_on_clocks() {
+        let dials = Dials::Times { left: [Some(3723), Some(59)], running: None };
+        assert_eq!(clocks(Some(&dials)), ["1:02:03", "0:59"]);
+        let dials = Dials::Times { left: [None, Some(0)], running: None };
+        assert_eq!(clocks(Some(&dials)), ["", "0:00"]);
+        assert_eq!(clocks(Some(&Dials::Moment("17w".to_owned()))), ["", ""]);
+    }
+
+    #[test]
+    fn a_fen_says_who_is_to_move() {
+        for (fen, expected) in [
+            ("8/8/8/8/8/8/8/8 w - - 0 1", Some("White to move")),
+            ("8/8/8/8/8/8/8/8 b", Some("Black to move")),
+            ("8/8/8/8/8/8/8/8", None),
+            ("8/8/8/8/8/8/8/8 -", None),
+        ] {
+            let content = of_fen(fen, shown());
+            assert_eq!(content.as_ref().map(|content| content.moved.as_str()), expected, "{fen}");
+            assert_eq!(of_fen(fen, Captions::default()), None);
+        }
+    }
+}
