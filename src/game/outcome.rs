@@ -22,13 +22,9 @@ impl Game {
     /// The move that led to the position after `ply` half-moves, with its number: `17. Rd8#`,
     /// `16… Nf6`; none leads to the start.
     pub fn numbered_san(&self, ply: usize) -> Option<String> {
-        let san = self.san(ply)?;
-        let number = match ply {
-            1 => self.start.fullmoves,
-            _ => self.plies[ply - 2].after.fullmoves(),
-        };
-        let dots = self.turn(ply - 1).fold_wb(".", "…");
-        Some(format!("{number}{dots} {san}"))
+        let ply = self.plies.get(ply.checked_sub(1)?)?;
+        let dots = ply.mover().fold_wb(".", "…");
+        Some(format!("{}{dots} {}", ply.number(), ply.san))
     }
 
     /// What the rules say of the last position, if they end the game there.

@@ -2,7 +2,7 @@
 
 use crate::caption::{Card, Content, Gauge, Player};
 use crate::config::Captions;
-use crate::game::{Ending, Eval, Game, Notes};
+use crate::game::{Ending, Eval, Game};
 use crate::notation::Color;
 use crate::timeline::{self, Dials, Frame};
 
@@ -73,15 +73,16 @@ pub fn of_fen(fen: &str, settings: Captions) -> Option<Content> {
 
 /// The last known judgement at each position; at a mate no other is needed.
 fn gauges(game: &Game) -> Vec<Gauge> {
-    let judged = (0..=game.plies.len()).map(|ply| game.notes(ply).eval);
-    if judged.clone().all(|eval| eval.is_none()) {
+    let plies = 0..=game.plies.len();
+    if plies.clone().all(|ply| game.notes(ply).eval.is_none()) {
         return Vec::new();
     }
     let mut last = Gauge::even();
     let mut gauges = Vec::with_capacity(game.plies.len() + 1);
-    for eval in judged {
-        match eval {
+    for ply in plies {
+        match game.notes(ply).eval {
             Some(Eval::Pawns(pawns)) => last = Gauge::pawns(pawns),
+            Some(Eval::Mate(0)) => last = Gauge::mated(game.turn(ply)),
             Some(Eval::Mate(moves)) => last = Gauge::mate(moves),
             None => {}
         }
@@ -122,31 +123,15 @@ fn clocks(dials: Option<&Dials>) -> [String; 2] {
     }
 }
 
-/// `17. Rd8#!!`; nothing at the start.
+/// `17. Rd8#!! ±`; nothing at the start.
 fn moved(game: &Game, ply: usize) -> String {
-    let mut moved = game.numbered_san(ply).unwrap_or_default();
-    if !moved.is_empty() {
-        moved.push_str(&glyphs(game.notes(ply)));
-    }
-    moved
-}
-
-/// The signs of annotators by their numbers in PGN: those of moves stand at the move, those of positions behind it.
-const OF_MOVES: [(u8, &str); 6] = [(1, "!"), (2, "?"), (3, "!!"), (4, "??"), (5, "!?"), (6, "?!")];
-const OF_POSITIONS: [(u8, &str); 8] =
-    [(10, "="), (13, "∞"), (14, "⩲"), (15, "⩱"), (16, "±"), (17, "∓"), (18, "+−"), (19, "−+")];
-
-fn glyphs(notes: &Notes) -> String {
-    let first = |signs: &[(u8, &'static str)]| {
-        let known = |glyph: &u8| signs.iter().find(|(number, _)| number == glyph);
-        notes.glyphs.iter().find_map(known).map(|(_, sign)| *sign)
+    let Some(mut moved) = game.numbered_san(ply) else {
+        return String::new();
     };
-    let mut glyphs = first(&OF_MOVES).unwrap_or_default().to_owned();
-    if let Some(sign) = first(&OF_POSITIONS) {
-        glyphs.push(' ');
-        glyphs.push_str(sign);
-    }
-    glyphs
+    let notes = game.notes(ply);
+    moved.extend(notes.move_glyph());
+    moved.extend(notes.position_glyph().map(|glyph| format!(" {glyph}")));
+    moved
 }
 
 /// The tournament, its place, date and round, as far as they are known.
@@ -222,16 +207,17 @@ fn ending(game: &Game) -> String {
     if let Some(ending) = by_rule {
         return ending.to_owned();
     }
+    if let Some(loser) = game.clocks().flag() {
+        return loser.fold_wb("Black wins on time", "White wins on time").to_owned();
+    }
     let termination = game.tag("Termination").unwrap_or_default().trim();
-    let known = match (termination.to_lowercase().as_str(), game.result.as_str()) {
-        ("time forfeit", "1-0") => "White wins on time",
-        ("time forfeit", "0-1") => "Black wins on time",
-        ("time forfeit", _) => "Time ran out",
-        ("rules infraction", _) => "Rules infraction",
-        ("adjudication", _) => "Adjudicated",
-        ("abandoned", _) => "Abandoned",
+    let known = match termination.to_lowercase().as_str() {
+        "time forfeit" => "Time ran out",
+        "rules infraction" => "Rules infraction",
+        "adjudication" => "Adjudicated",
+        "abandoned" => "Abandoned",
         // Sites write whole sentences: `Hou won by resignation`.
-        (text, _) if text.contains(" won ") || text.contains(" drawn ") => termination,
+        text if text.contains(" won ") || text.contains(" drawn ") => termination,
         _ => "",
     };
     known.to_owned()
@@ -316,8 +302,7 @@ mod tests {
 
     #[test]
     fn each_part_can_be_left_out() {
-        let mut game = game(&format!("{OPERA}{SCHOLARS}"));
-        game.plies[3].notes.eval = Some(Eval::Pawns(0.3));
+        let game = game(&format!("{OPERA}{{[%eval 0.3]}} {SCHOLARS}"));
         let whole = shown();
         let last = |settings: Captions| contents(&game, settings).pop();
         assert_eq!(last(Captions { show: false, ..whole }), None);
@@ -339,9 +324,9 @@ mod tests {
 
     #[test]
     fn a_judgement_holds_until_the_next() {
-        let mut game = game(SCHOLARS);
-        game.plies[0].notes.eval = Some(Eval::Pawns(0.2));
-        game.plies[5].notes.eval = Some(Eval::Mate(1));
+        let game = game(
+            "1. e4 {[%eval 0.2]} e5 2. Bc4 Nc6 3. Qh5 Nf6 {[%eval #1]} 4. Qxf7# {[%eval #0]} 1-0",
+        );
         let labels: Vec<String> = contents(&game, shown())
             .into_iter()
             .map(|content| content.gauge.unwrap().label)
@@ -401,6 +386,7 @@ mod tests {
             ("Time forfeit", "1. e4 1/2-1/2", "Time ran out"),
             ("Hou won by resignation", "1. e4 1-0", "Hou won by resignation"),
             ("abandoned", "1. e4 *", "Abandoned"),
+            ("Topalov won on time", "1. e4 0-1", "Black wins on time"),
             ("whatever", "1. e4 *", ""),
         ] {
             let separator = if moves.starts_with('[') { "" } else { "\n" };
@@ -433,15 +419,13 @@ mod tests {
 
     #[test]
     fn glyphs_stand_at_the_move_and_behind_it() {
-        for (glyphs_of, expected) in [
-            (vec![], ""),
-            (vec![3], "!!"),
-            (vec![6, 14], "?! ⩲"),
-            (vec![19, 2], "? −+"),
-            (vec![140, 1], "!"),
+        for (text, expected) in [
+            ("1. e4 *", "1. e4"),
+            ("1. e4!! *", "1. e4!!"),
+            ("1. e4 $14 $6 *", "1. e4?! ⩲"),
+            ("1. e4 $19 *", "1. e4 −+"),
         ] {
-            let notes = Notes { glyphs: glyphs_of, ..Notes::default() };
-            assert_eq!(glyphs(&notes), expected);
+            assert_eq!(moved(&game(text), 1), expected);
         }
     }
 
