@@ -5,6 +5,11 @@ use std::path::Path;
 
 use assert_cmd::Command;
 use image::{DynamicImage, GenericImageView};
+use lightsquare::assets::SetName;
+use lightsquare::config::{Config, Look};
+use lightsquare::game::Moment;
+use lightsquare::job::{PictureSettings, Progress, RenderJob, render};
+use lightsquare::timeline::Film;
 use tempfile::TempDir;
 
 const GAME: &str = "[White \"Anand\"]\n[Black \"Topalov\"]\n\n1. e4 e5 *\n";
@@ -79,6 +84,51 @@ fn while_a_move_is_under_way_its_words_stand_still() {
     };
     assert_eq!(changes(|picture| rows(picture, 81, 100)), [6, 8, 12, 15]);
     assert_eq!(changes(|picture| rows(picture, 0, 81)), [6, 7, 8, 13, 14, 15]);
+}
+
+/// Nobody watches.
+struct Unwatched;
+
+impl Progress for Unwatched {
+    fn begin(&self, _frames: u64) {}
+    fn game(&self, _name: &str) {}
+    fn frame_done(&self) {}
+    fn say(&self, _text: &str) {}
+    fn detail(&self, _text: &str) {}
+    fn is_cancelled(&self) -> bool {
+        false
+    }
+}
+
+#[test]
+fn a_pause_is_traced_once() {
+    let folder = TempDir::new().unwrap();
+    let game = folder.path().join("game.pgn");
+    fs::write(&game, "[White \"Anand\"]\n\n*\n").unwrap();
+    let rays = |fps: f64| {
+        let mut config = Config { width: 160, height: 100, ..Config::new(Look::Thesis) };
+        config.captions.show = true;
+        let job = RenderJob {
+            inputs: vec![game.clone()],
+            out: folder.path().join("out"),
+            selection: None,
+            from: Moment::Ply(0),
+            to: Moment::End,
+            film: Some(Film { fps, ..Film::default() }),
+            orbit: 0.0,
+            picture: PictureSettings {
+                config,
+                config_file: None,
+                set: SetName::Thesis,
+                threads: Some(1),
+            },
+        };
+        let summary = render(&job, &Unwatched).unwrap();
+        (summary.frames, summary.rays)
+    };
+    let (few, many) = (rays(1.0), rays(3.0));
+    assert_eq!((few.0, many.0), (6, 18));
+    assert_eq!(few.1, many.1);
 }
 
 #[test]

@@ -73,6 +73,10 @@ fn upper_row(
     let group = moved.width(fonts) + between + chip_width;
     let from = ((width - group) / 2.0).round();
     moved.draw(canvas, fonts, from, middle);
+    let is_nameless = content.players.iter().all(|player| player.name.is_empty());
+    if let Some(color) = content.to_move.filter(|_| is_nameless && group > 0.0) {
+        draw_disc(canvas, tone, color, false, (from - 0.9 * em, middle), em);
+    }
     if let Some(chip) = chip {
         chip.draw(canvas, fonts, tone, from + group - chip_width, middle);
     }

@@ -12,6 +12,7 @@ mod render;
 mod report;
 mod studio;
 mod subject;
+mod wording;
 
 pub use bench::{BenchJob, Measurement, bench};
 pub use diagram::{DiagramJob, DiagramSummary, diagram};
