@@ -17,11 +17,12 @@
 //! | [`game`] | reading PGN into games; selection | notation |
 //! | [`timeline`] | frames: at time *t* a placement, the movers between squares, each piece's identity | game, notation, config |
 //! | [`config`] | `config.ini`, typed and range-checked | – |
-//! | [`assets`] | piece sets from TOML (`docs/piece-sets.md`), bitmaps | config, geometry |
+//! | [`assets`] | piece sets from TOML (`docs/piece-sets.md`), bitmaps, a font | config, geometry |
 //! | [`geometry`] | rays, spans, bounds, transforms, curves, and one file a shape | – |
 //! | [`scene`] | materials, textures, lights, camera, board and its marks, clock and pieces; builds a [`scene::Scene`] from a frame | geometry, config, assets, notation, timeline |
 //! | [`tracer`] | rays through a whole scene, shading, antialiasing; a picture in memory | geometry, scene |
 //! | [`export`] | a scene as another renderer's text | geometry, scene, assets, config |
+//! | [`caption`] | the strip of words on a picture, and the cards before and behind a game | assets, config, notation |
 //! | [`output`] | pictures, manifests, reports; whole files only | – |
 //! | [`job`] | what to render: game → timeline → scene → tracer → output; inspect; diagram; export; bench | all of the above |
 //!
@@ -43,6 +44,7 @@
 //! linear light when the scene is built.
 
 pub mod assets;
+pub mod caption;
 pub mod config;
 pub mod export;
 pub mod game;

@@ -41,7 +41,7 @@ fn every_key_is_explained() {
         assert!(above.is_some_and(|above| above.starts_with("; ")), "{line}");
         keys += 1;
     }
-    assert_eq!(keys, 64);
+    assert_eq!(keys, 72);
 }
 
 #[test]

@@ -35,7 +35,7 @@ fn sources(folder: &Path, module: Option<&str>, found: &mut Vec<(String, String)
         let module = module.map_or(stem, str::to_owned);
         if path.is_dir() {
             sources(&path, Some(&module), found);
-        } else {
+        } else if path.extension().is_some_and(|ending| ending == "rs") {
             found.push((module, std::fs::read_to_string(&path).unwrap()));
         }
     }

@@ -1,9 +1,11 @@
-//! What pictures are made of and no frame changes: piece sets, as data, and bitmaps.
+//! What pictures are made of and no frame changes: piece sets, as data, bitmaps, and letters.
 
 mod bitmap;
+mod font;
 mod set;
 
 pub use bitmap::{Beyond, Bitmap, BitmapError};
+pub use font::{BOLD, REGULAR};
 pub use set::{PieceSet, SetError, SetName, piece_set};
 
 use std::collections::BTreeMap;

@@ -75,6 +75,9 @@ pub struct PictureArgs {
     /// Put a clock with the game's times beside the board
     #[arg(long)]
     clock: bool,
+    /// A strip of words below the scene: players, the move, the tournament, who stands better
+    #[arg(long)]
+    captions: bool,
     /// Wood and marble as plain colours
     #[arg(long)]
     plain: bool,
@@ -172,6 +175,7 @@ impl PictureArgs {
         if self.clock {
             config.clock.show = ShowClock::Game;
         }
+        config.captions.show |= self.captions;
         config.render.plain |= self.plain;
         if self.transparent {
             (config.parts.background, config.parts.table) = (Some(None), Some(None));

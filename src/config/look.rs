@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use super::{
-    Camera, Captured, Clock, Config, FARTHEST, Filter, Knights, Light, Marks, Normals, Orientation,
-    Parts, Pose, Render, Room, Sampling, Shading, ShowClock, View, WithoutTimes, shelf, theme,
+    Camera, Captions, Captured, Clock, Config, FARTHEST, Filter, Knights, Light, Marks, Normals,
+    Orientation, Parts, Pose, Render, Room, Sampling, Shading, ShowClock, View, WithoutTimes,
+    shelf, theme,
 };
 
 /// How pictures look before any setting: a starting point for all of them.
@@ -80,6 +81,7 @@ fn thesis() -> Config {
             black: 0,
             case: "frame".to_owned(),
         },
+        captions: Captions::default(),
         models: Vec::new(),
         materials: BTreeMap::new(),
     }

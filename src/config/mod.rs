@@ -4,6 +4,7 @@
 
 mod camera;
 mod camera_path;
+mod captions;
 mod checks;
 mod ini;
 mod keys;
@@ -20,6 +21,7 @@ mod values;
 
 pub use camera::{Camera, ORIENTATIONS, Orientation, Pose, VIEWS, View};
 pub use camera_path::{KeyFrame, When};
+pub use captions::{Captions, Tone};
 pub use keys::unknown;
 pub use look::Look;
 pub use marks::Marks;
@@ -69,6 +71,7 @@ pub struct Config {
     pub captured: Captured,
     pub marks: Marks,
     pub clock: Clock,
+    pub captions: Captions,
     pub models: Vec<Model>,
     /// By name, in small letters; every name that the other settings use is here.
     pub materials: BTreeMap<String, Material>,

@@ -11,13 +11,13 @@ use super::values::{
 use super::{
     CAPTURED, Clock, Config, FARTHEST, Fault, Filter, Knights, Light, MAX_RAYS, MAX_SIDE, Model,
     Normals, Render, Room, Sampling, Shading, Shape, ShowClock, View, WithoutTimes, camera,
-    camera_path, marks, material, model, theme,
+    camera_path, captions, marks, material, model, theme,
 };
 
 const MAX_LIGHTS: u32 = 100;
 const MAX_MODELS: u32 = 1000;
 
-const SECTIONS: [&str; 13] = [
+const SECTIONS: [&str; 14] = [
     "GlobalSettings",
     "Camera",
     "CameraPath",
@@ -29,6 +29,7 @@ const SECTIONS: [&str; 13] = [
     "Pieces",
     "Marks",
     "Clock",
+    "Captions",
     "Material white",
     "Theme wood",
 ];
@@ -199,6 +200,9 @@ pub fn interpret(
                 let lines = read_section(section, &CLOCK_KEYS, &mut config.clock, faults);
                 uses.push(Use::new(&lines, "Case", &config.clock.case));
             }
+            "captions" => {
+                read_section(section, &captions::KEYS, &mut config.captions, faults);
+            }
             "theme" | "material" => {
                 let message = format!("[{}] has no name, expected one behind it", section.name);
                 faults.push(Fault { line: section.line, message });
@@ -352,6 +356,7 @@ pub fn show(config: &Config) -> String {
     show_section("Pieces", &PIECES_KEYS, config, &mut out);
     show_section("Marks", &marks::KEYS, &config.marks, &mut out);
     show_section("Clock", &CLOCK_KEYS, &config.clock, &mut out);
+    show_section("Captions", &captions::KEYS, &config.captions, &mut out);
     for (number, model) in config.models.iter().enumerate() {
         show_section(&format!("Model{number}"), &model::KEYS, model, &mut out);
     }

@@ -12,6 +12,7 @@ mod glyph;
 mod line;
 mod movetext;
 mod notes;
+mod outcome;
 mod replay;
 mod scan;
 mod select;
@@ -22,6 +23,7 @@ mod word;
 
 pub use clock::Clocks;
 pub use notes::{Eval, Notes};
+pub use outcome::Ending;
 pub use scan::{ScannedGame, Scanner};
 pub use select::{Absent, Moment, ParseMomentError, ParseSelectionError, Selection};
 pub use source::{Source, SourceError};
@@ -192,14 +194,6 @@ impl Game {
                 let before = &self.plies[ply - 2].after;
                 format!("{}{}", before.fullmoves(), before.turn().char())
             }
-        }
-    }
-
-    /// Who is to move after `ply` half-moves.
-    pub fn to_move(&self, ply: usize) -> Color {
-        match ply.checked_sub(1) {
-            None => self.start.turn,
-            Some(index) => self.plies[index].after.turn(),
         }
     }
 

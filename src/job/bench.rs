@@ -62,7 +62,7 @@ pub fn bench(job: &BenchJob) -> Result<Vec<Measurement>, JobError> {
         let mut studio = Studio::new(&settings, Reach::default())?;
         let mut run = || {
             let begin = Instant::now();
-            studio.picture(&frame);
+            studio.trace(&frame);
             (begin.elapsed().as_secs_f64(), studio.rays())
         };
         let (first, rays) = run();

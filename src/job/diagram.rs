@@ -63,12 +63,15 @@ pub fn diagram(
     let mut shot = job.subject.read(&job.picture.config, progress)?;
     job.drawn.add_to(&mut shot.frame.marks);
     keep_inputs(&job.subject, &job.picture, &job.output)?;
-    let mut studio = Studio::new(&job.picture, Showing::default().reach(&job.picture.config))?;
+    let mut settings = job.picture.clone();
+    // Where nothing is known there is no strip.
+    settings.config.captions.show &= shot.content.is_some();
+    let mut studio = Studio::new(&settings, Showing::default().reach(&settings.config))?;
     let to_stdout = job.output == Path::new("-");
     if !to_stdout {
         prepare_file(&job.output)?;
     }
-    let picture = studio.picture(&shot.frame);
+    let picture = studio.picture(&shot.frame, shot.content.as_ref());
     if to_stdout {
         encode_png(&picture, &shot.texts, job.dpi, stdout).map_err(JobError::Write)?;
     } else {

@@ -5,6 +5,7 @@
 
 mod batch;
 mod bench;
+mod captions;
 mod diagram;
 mod export;
 mod inspect;
@@ -13,6 +14,7 @@ mod report;
 mod script;
 mod studio;
 mod subject;
+mod wording;
 
 pub use bench::{BenchJob, Measurement, bench};
 pub use diagram::{DiagramJob, DiagramSummary, Drawn, diagram};
@@ -27,6 +29,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::assets::AssetError;
+use crate::caption::CaptionError;
 use crate::game::{Game, Moment, Selection, SourceError, printable};
 use crate::output::OutputError;
 use crate::scene::StageError;
@@ -62,6 +65,8 @@ pub enum JobError {
     Path { file: String, game: usize, error: PathError },
     #[error(transparent)]
     Assets(#[from] AssetError),
+    #[error(transparent)]
+    Caption(#[from] CaptionError),
     #[error(transparent)]
     Stage(#[from] StageError),
     #[error("{threads} threads cannot be started")]

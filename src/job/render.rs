@@ -5,6 +5,7 @@ use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 use super::batch::{Batch, Entry, Part, folder_names, game_folder, read_batch};
+use super::captions::GameCaptions;
 use super::report::{FrameRow, Manifest, ReportLine, Status, VariationLine, tags, texts};
 use super::studio::{PictureSettings, Studio};
 use super::{JobError, Progress, Showing};
@@ -171,25 +172,20 @@ impl Run<'_> {
             Timeline::new(game, part.first, part.last, &self.script).map_err(|error| {
                 JobError::Path { file: batch.file.clone(), game: game.number, error }
             })?;
+        let captions = GameCaptions::new(game, self.job.picture.config.captions);
         let mut rows = Vec::new();
-        let mut shown_last = None;
         for index in part.frames.clone() {
             if self.progress.is_cancelled() {
                 self.summary.cancelled = true;
                 break;
             }
             let frame = timeline.frame(index);
-            // A pause is one picture many times over.
-            let picture = match shown_last.take() {
-                Some((last, picture)) if frame.shows_the_same(&last) => picture,
-                _ => self.studio.picture(&frame),
-            };
+            let picture = self.studio.picture(&frame, captions.of(&frame).as_ref());
             let name = frame_name(index);
             write_png(&folder.join(&name), &picture, &texts(game, &frame), None)?;
             rows.push(FrameRow::new(name, game, &frame));
             self.progress.frame_done();
             self.summary.frames += 1;
-            shown_last = Some((frame, picture));
         }
         let manifest = Manifest {
             file: &batch.file,

@@ -32,7 +32,8 @@ impl Showing {
             animate: self.animate,
             camerawork: Camerawork { orbit: self.orbit, each_move: self.orbits_each_move, lead },
             keeps_captured: self.keeps_captured(config),
-            has_clock: config.clock.show == ShowClock::Game,
+            has_clock: config.clock.show == ShowClock::Game
+                || config.captions.show && config.captions.clocks,
             ..Script::default()
         }
     }

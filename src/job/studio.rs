@@ -7,7 +7,8 @@ use serde::Serialize;
 
 use super::{JobError, shown};
 use crate::assets::{Assets, SetName};
-use crate::config::{Config, Render, Sampling};
+use crate::caption::{Caption, Content};
+use crate::config::{Config, Render, Sampling, ShowClock};
 use crate::game::printable;
 use crate::scene::{Reach, Stage};
 use crate::timeline::{Bodies, Frame};
@@ -60,7 +61,11 @@ fn antialiasing(render: &Render) -> Antialiasing {
 /// Makes pictures of frames.
 pub(super) struct Studio<'a> {
     settings: &'a PictureSettings,
+    /// As high as the scene is.
     stage: Stage,
+    caption: Caption,
+    /// The scene that was traced last.
+    last: Option<(Frame, DynamicImage)>,
     threads: rayon::ThreadPool,
     rays: RayCounts,
 }
@@ -68,9 +73,14 @@ pub(super) struct Studio<'a> {
 impl<'a> Studio<'a> {
     pub fn new(settings: &'a PictureSettings, reach: Reach) -> Result<Studio<'a>, JobError> {
         let threads = settings.threads.unwrap_or(0);
+        let caption = Caption::new(&settings.config)?;
+        let mut of_scene = settings.clone();
+        of_scene.config.height = caption.scene_height();
         Ok(Studio {
             settings,
-            stage: stage(settings, reach)?,
+            stage: stage(&of_scene, reach)?,
+            caption,
+            last: None,
             threads: rayon::ThreadPoolBuilder::new()
                 .num_threads(threads)
                 .build()
@@ -79,9 +89,33 @@ impl<'a> Studio<'a> {
         })
     }
 
-    pub fn picture(&mut self, frame: &Frame) -> DynamicImage {
+    /// The picture of a frame, with `content` in words if there is any. A pause is one scene many
+    /// times over: it is traced once, and what is said is drawn on a copy.
+    pub fn picture(&mut self, frame: &Frame, content: Option<&Content>) -> DynamicImage {
+        let shown = self.shown_of(frame);
+        let scene = match self.last.take() {
+            Some((last, scene)) if shown.shows_the_same(&last) => scene,
+            _ => self.trace(&shown),
+        };
+        let picture = match content {
+            Some(content) => self.caption.draw(&scene, content),
+            None => scene.clone(),
+        };
+        self.last = Some((shown, scene));
+        picture
+    }
+
+    /// What of a frame can be seen in the scene.
+    fn shown_of(&self, frame: &Frame) -> Frame {
+        let dials =
+            frame.dials.clone().filter(|_| self.settings.config.clock.show == ShowClock::Game);
+        Frame { dials, ..frame.clone() }
+    }
+
+    /// The scene of a frame, without words.
+    pub fn trace(&mut self, frame: &Frame) -> DynamicImage {
         let scene = self.stage.scene(frame);
-        let Config { width, height, .. } = self.settings.config;
+        let (width, height) = (self.settings.config.width, self.caption.scene_height());
         let mode = antialiasing(&self.settings.config.render);
         let (picture, rays) = self.threads.install(|| tracer::render(&scene, width, height, mode));
         self.rays = self.rays + rays;

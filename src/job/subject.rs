@@ -3,9 +3,11 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use super::captions::{self, GameCaptions};
 use super::report::texts;
 use super::studio::PictureSettings;
 use super::{JobError, Progress, Showing, say_problems, shown};
+use crate::caption::Content;
 use crate::config::Config;
 use crate::game::{Game, Moment, Source};
 use crate::notation::Placement;
@@ -24,6 +26,8 @@ pub enum Subject {
 pub(super) struct Shot {
     pub frame: Frame,
     pub texts: Vec<(&'static str, String)>,
+    /// What a caption says; `None` where nothing is known.
+    pub content: Option<Content>,
     /// Whether the whole game could be read, where it comes from one.
     pub is_whole: bool,
 }
@@ -34,8 +38,12 @@ impl Subject {
         let (file, number, at) = match self {
             Subject::Placement { placement, fen } => {
                 let marks = Marks::of_fen(fen);
-                let frame = Frame { marks, ..Frame::still(*placement) };
-                return Ok(Shot { frame, texts: vec![("FEN", fen.clone())], is_whole: true });
+                return Ok(Shot {
+                    frame: Frame { marks, ..Frame::still(*placement) },
+                    texts: vec![("FEN", fen.clone())],
+                    content: captions::of_fen(fen, config.captions),
+                    is_whole: true,
+                });
             }
             Subject::Game { file, number, at } => (file, *number, *at),
         };
@@ -88,5 +96,6 @@ fn shot(file: String, game: &Game, at: Moment, config: &Config) -> Result<Shot, 
     let timeline = Timeline::new(game, ply, ply, &script);
     let timeline = timeline.map_err(|error| JobError::Path { file, game: game.number, error })?;
     let frame = timeline.frame(0);
-    Ok(Shot { texts: texts(game, &frame), frame, is_whole: game.is_whole() })
+    let content = GameCaptions::new(game, config.captions).of(&frame);
+    Ok(Shot { texts: texts(game, &frame), content, frame, is_whole: game.is_whole() })
 }

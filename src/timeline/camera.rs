@@ -67,7 +67,7 @@ impl Track {
     ) -> Result<Track, PathError> {
         let lead = match &work.lead {
             Lead::Nothing => LeadTrack::Nothing,
-            Lead::Mover => LeadTrack::Mover(game.to_move(first)),
+            Lead::Mover => LeadTrack::Mover(game.turn(first)),
             Lead::Piece => {
                 let target = |ply: usize| {
                     let Motion { steps, dropped, .. } = Motion::new(&game.plies[ply].played);

@@ -21,7 +21,7 @@ pub struct Clock {
 impl Clock {
     /// The clock of `game` from ply `first` to ply `last`.
     pub fn new(game: &Game, first: usize, last: usize) -> Clock {
-        let moment = |ply| (game.to_move(ply), game.moment_name(ply));
+        let moment = |ply| (game.turn(ply), game.moment_name(ply));
         Clock {
             clocks: game.clocks(),
             first_ply: first,
