@@ -58,7 +58,7 @@ pub enum JobError {
     #[error("{file}: game {game} would take {frames} frames, expected at most {MAX_FRAMES}")]
     TooLong { file: String, game: usize, frames: usize },
     #[error(
-        "--frames: {file}: game {game} has frames 0 to {last}, expected no others, found {wanted}"
+        "--frames: {file}: game {game} has frames 0 to {last}, expected a part of them, found {wanted}"
     )]
     NoSuchFrames { file: String, game: usize, last: usize, wanted: String },
     #[error("{file}: game {game}: {error}")]
