@@ -60,7 +60,7 @@ pub fn diagram(
     progress: &dyn Progress,
     stdout: &mut dyn Write,
 ) -> Result<DiagramSummary, JobError> {
-    let mut shot = job.subject.read(&job.picture.config, progress)?;
+    let mut shot = job.subject.read(&job.picture, progress)?;
     job.drawn.add_to(&mut shot.frame.marks);
     keep_inputs(&job.subject, &job.picture, &job.output)?;
     let mut settings = job.picture.clone();

@@ -30,7 +30,7 @@ pub fn export(
     progress: &dyn Progress,
     stdout: &mut dyn Write,
 ) -> Result<bool, JobError> {
-    let shot = job.subject.read(&job.picture.config, progress)?;
+    let shot = job.subject.read(&job.picture, progress)?;
     let scene =
         stage(&job.picture, Showing::default().reach(&job.picture.config))?.scene(&shot.frame);
     let config = &job.picture.config;

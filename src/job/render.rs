@@ -15,7 +15,7 @@ use crate::output::{
     frame_name, manifest_name, prepare_folder, remove_frames, write_json, write_json_lines,
     write_png,
 };
-use crate::timeline::{Script, Timeline};
+use crate::timeline::{Bodies, Script, Timeline};
 use crate::tracer::RayCounts;
 
 /// Which games to render, how, and where to.
@@ -60,13 +60,15 @@ pub struct Summary {
 /// # Errors
 /// Input that cannot be read, output that cannot be written, or a selection without games.
 pub fn render(job: &RenderJob, progress: &dyn Progress) -> Result<Summary, JobError> {
-    let script = job.showing.script(&job.picture.config);
+    let config = &job.picture.config;
+    // How many frames there are does not depend on the room that pieces take.
+    let script = job.showing.script(config, Bodies::default());
     let mut batches = Vec::new();
     for (input, name) in job.inputs.iter().zip(folder_names(&job.inputs)) {
         batches.push(read_batch(job, &script, input, job.out.join(name), progress)?);
     }
-    let studio = Studio::new(&job.picture, job.showing.reach(&job.picture.config))?;
-    let script = Script { bodies: studio.bodies().clone(), ..script };
+    let studio = Studio::new(&job.picture, job.showing.reach(config))?;
+    let script = job.showing.script(config, studio.bodies().clone());
     let mut run = Run { job, script, progress, studio, summary: Summary::default() };
     for batch in &batches {
         keep_out(job, &batch.folder)?;

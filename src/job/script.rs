@@ -2,7 +2,7 @@
 
 use crate::config::{Camera, Captured, Config, ShowClock, View};
 use crate::scene::Reach;
-use crate::timeline::{Camerawork, Film, Lead, Script};
+use crate::timeline::{Bodies, Camerawork, Film, Lead, Script};
 
 /// How games are shown in time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -18,8 +18,8 @@ pub struct Showing {
 }
 
 impl Showing {
-    /// What a timeline is to do with the settings of `config`, but for the room that pieces take.
-    pub fn script(&self, config: &Config) -> Script {
+    /// What a timeline is to do with the settings of `config`, where things take the room of `bodies`.
+    pub fn script(&self, config: &Config, bodies: Bodies) -> Script {
         let Camera { view, path, .. } = &config.camera;
         let lead = match view {
             View::Mover => Lead::Mover,
@@ -34,7 +34,7 @@ impl Showing {
             keeps_captured: self.keeps_captured(config),
             has_clock: config.clock.show == ShowClock::Game
                 || config.captions.show && config.captions.clocks,
-            ..Script::default()
+            bodies,
         }
     }
 

@@ -10,7 +10,7 @@ use crate::assets::{Assets, SetName};
 use crate::caption::{Caption, Content};
 use crate::config::{Config, Render, Sampling, ShowClock};
 use crate::game::printable;
-use crate::scene::{Reach, Stage};
+use crate::scene::{self, Reach, Stage};
 use crate::timeline::{Bodies, Frame};
 use crate::tracer::{self, Antialiasing, RayCounts};
 
@@ -47,6 +47,14 @@ pub(super) struct SettingsRecord<'a> {
 pub(super) fn stage(settings: &PictureSettings, reach: Reach) -> Result<Stage, JobError> {
     let assets = Assets::load(&settings.config, &settings.set)?;
     Ok(Stage::new(&settings.config, &assets, reach)?)
+}
+
+/// The room that pieces take in frames that reach as far as `reach`, if any is needed.
+pub(super) fn bodies(settings: &PictureSettings, reach: Reach) -> Result<Bodies, JobError> {
+    if !reach.needs_bodies() {
+        return Ok(Bodies::default());
+    }
+    Ok(scene::bodies(&Assets::load(&settings.config, &settings.set)?.set))
 }
 
 fn antialiasing(render: &Render) -> Antialiasing {

@@ -5,10 +5,9 @@ use std::path::{Path, PathBuf};
 
 use super::captions::{self, GameCaptions};
 use super::report::texts;
-use super::studio::PictureSettings;
+use super::studio::{PictureSettings, bodies};
 use super::{JobError, Progress, Showing, say_problems, shown};
 use crate::caption::Content;
-use crate::config::Config;
 use crate::game::{Game, Moment, Source};
 use crate::notation::Placement;
 use crate::timeline::{Frame, Marks, Timeline};
@@ -34,14 +33,18 @@ pub(super) struct Shot {
 
 impl Subject {
     /// Reads the position.
-    pub(super) fn read(&self, config: &Config, progress: &dyn Progress) -> Result<Shot, JobError> {
+    pub(super) fn read(
+        &self,
+        settings: &PictureSettings,
+        progress: &dyn Progress,
+    ) -> Result<Shot, JobError> {
         let (file, number, at) = match self {
             Subject::Placement { placement, fen } => {
                 let marks = Marks::of_fen(fen);
                 return Ok(Shot {
                     frame: Frame { marks, ..Frame::still(*placement) },
                     texts: vec![("FEN", fen.clone())],
-                    content: captions::of_fen(fen, config.captions),
+                    content: captions::of_fen(fen, settings.config.captions),
                     is_whole: true,
                 });
             }
@@ -54,7 +57,7 @@ impl Subject {
             games = game.number;
             if game.number == number {
                 say_problems(&name, &game, progress);
-                return shot(name, &game, at, config);
+                return shot(name, &game, at, settings);
             }
         }
         Err(JobError::NothingSelected { file: name, games })
@@ -81,7 +84,12 @@ pub(super) fn keep_inputs(
     Ok(())
 }
 
-fn shot(file: String, game: &Game, at: Moment, config: &Config) -> Result<Shot, JobError> {
+fn shot(
+    file: String,
+    game: &Game,
+    at: Moment,
+    settings: &PictureSettings,
+) -> Result<Shot, JobError> {
     if !game.start_is_known {
         return Err(JobError::NoPosition { file, game: game.number });
     }
@@ -92,7 +100,9 @@ fn shot(file: String, game: &Game, at: Moment, config: &Config) -> Result<Shot, 
         start: game.moment_name(0),
         end: game.moment_name(game.plies.len()),
     })?;
-    let script = Showing::default().script(config);
+    let config = &settings.config;
+    let showing = Showing::default();
+    let script = showing.script(config, bodies(settings, showing.reach(config))?);
     let timeline = Timeline::new(game, ply, ply, &script);
     let timeline = timeline.map_err(|error| JobError::Path { file, game: game.number, error })?;
     let frame = timeline.frame(0);

@@ -74,8 +74,7 @@ impl Stage {
         let materials = Materials { config, bitmaps: &assets.bitmaps };
         let scheme = config.scheme();
         let set = assets.set.clone();
-        let has_room = reach.moves || reach.captured;
-        let bodies = if has_room { bodies(&set) } else { Bodies::default() };
+        let bodies = if reach.needs_bodies() { bodies(&set) } else { Bodies::default() };
         let room = view::Room { man: view::extent(&set), bodies: &bodies };
         let camera = view::camera(config, room, reach);
         let camera = camera.ok_or(StageError::FocusBehind)?;

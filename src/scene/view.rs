@@ -24,6 +24,13 @@ pub struct Reach {
     pub orbit: f64,
 }
 
+impl Reach {
+    /// Whether it matters how much room pieces take.
+    pub fn needs_bodies(&self) -> bool {
+        self.moves || self.captured
+    }
+}
+
 /// A way to look at the board's middle.
 struct Stand {
     /// Degrees above the board.
@@ -121,7 +128,7 @@ fn points(config: &Config, room: Room, reach: Reach, forward: DVec3) -> Vec<DVec
     };
     let outer = 3.5 * SQUARE + radius;
     let mut boxes = vec![board::bounds(), block(outer, outer, 0.0, man.max.y)];
-    if reach.moves || reach.captured {
+    if reach.needs_bodies() {
         let [beside, along] = tray_reach(bodies);
         let [beside, along, table, capturable, ceiling] =
             [beside, along, bodies.table, bodies.tallest()[1], ceiling(bodies)]
@@ -149,8 +156,7 @@ fn points(config: &Config, room: Room, reach: Reach, forward: DVec3) -> Vec<DVec
 
 /// Where the clock stands for a camera that looks along `forward`.
 pub fn clock_place(forward: DVec3, bodies: &Bodies, reach: Reach) -> DAffine3 {
-    let has_room = reach.moves || reach.captured;
-    clock::place(forward, if has_room { tray_reach(bodies)[0] * SQUARE } else { 0.0 })
+    clock::place(forward, if reach.needs_bodies() { tray_reach(bodies)[0] * SQUARE } else { 0.0 })
 }
 
 #[cfg(test)]
