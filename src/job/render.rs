@@ -200,6 +200,7 @@ impl Run<'_> {
             settings: self.studio.record(),
             film: self.job.showing.animate.then_some(self.job.showing.film),
             orbit: self.job.showing.orbit,
+            orbits_each_move: self.job.showing.orbits_each_move,
             frames: rows,
         };
         Ok(write_json(&folder.join(manifest_name(self.job.frames.as_ref())), &manifest)?)

@@ -8,7 +8,7 @@ use serde_json::{Map, Value};
 use super::studio::SettingsRecord;
 use crate::game::{Game, Problem, shortened};
 use crate::notation::Color;
-use crate::timeline::{Film, Frame};
+use crate::timeline::{Card, Film, Frame, Gaze};
 
 /// What became of a game.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -103,6 +103,8 @@ pub struct Manifest<'a> {
     pub settings: SettingsRecord<'a>,
     pub film: Option<Film>,
     pub orbit: f64,
+    /// Whether the camera turns so far with each move.
+    pub orbits_each_move: bool,
     pub frames: Vec<FrameRow>,
 }
 
@@ -121,6 +123,12 @@ pub struct FrameRow {
     fen: String,
     white: String,
     black: String,
+    /// Words over the position, before or behind the game.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    card: Option<Card>,
+    /// Where the camera is, unless it stands where it began.
+    #[serde(skip_serializing_if = "Gaze::is_still")]
+    camera: Gaze,
 }
 
 impl FrameRow {
@@ -136,6 +144,8 @@ impl FrameRow {
             fen: game.fen(frame.ply),
             white: placement.notation(Color::White),
             black: placement.notation(Color::Black),
+            card: frame.card,
+            camera: frame.gaze,
         }
     }
 }

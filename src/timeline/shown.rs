@@ -1,5 +1,7 @@
 //! What a frame shows beside the pieces: marks on the board, the clock, the camera's way.
 
+use serde::Serialize;
+
 use crate::config::Pose;
 use crate::notation::{Arrow, Circle, Color, Square};
 
@@ -27,7 +29,7 @@ pub enum Dials {
 }
 
 /// How far the camera is from where it stands at the film's beginning.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Gaze {
     /// How far it has turned about the board, in degrees; positive is anticlockwise as seen from
     /// above.
@@ -36,11 +38,20 @@ pub struct Gaze {
     /// from White; (0, 0) for a camera that does not lean.
     pub lean: [f64; 2],
     /// Where it stands on its path, which is over all other cameras.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub pose: Option<Pose>,
 }
 
+impl Gaze {
+    /// Whether the camera is where it stands at the film's beginning.
+    pub fn is_still(&self) -> bool {
+        *self == Gaze::default()
+    }
+}
+
 /// A picture of words before or behind the game.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Card {
     Title,
     Result,
