@@ -130,17 +130,14 @@ fn frames_and_times_are_those_of_the_formula() {
                     _ => None,
                 };
                 assert_eq!(frame.card, card, "{text}, {film:?}, {index}");
-                // Whether a move is under way, as the formula has it.
-                let since_first = frame.time - title - first;
-                let begun = since_first / (transition + pause);
-                let moving = since_first >= 0.0
-                    && begun < moves
-                    && since_first - begun.floor() * (transition + pause) < transition;
-                let border = (since_first / (transition + pause)).fract().min(1.0);
-                let near = [0.0, 1.0, transition / (transition + pause)]
-                    .into_iter()
-                    .any(|at| (border - at).abs() < 1e-6);
-                assert!(near || frame.movers.is_empty() != moving, "{text}, {film:?}, {index}");
+                // Whether a move is under way, as the formula has it, in whole millionths of a second.
+                let micro = |seconds: f64| (seconds * 1e6).round() as i64;
+                let since_first = micro(frame.time - title - first);
+                let (transition, pause) = (micro(transition), micro(pause));
+                let moving = since_first >= 0
+                    && since_first / (transition + pause).max(1) < moves as i64
+                    && since_first % (transition + pause).max(1) < transition;
+                assert_eq!(!frame.movers.is_empty(), moving, "{text}, {film:?}, {index}");
             }
         }
     }
@@ -169,8 +166,8 @@ fn the_camera_turns_evenly_over_the_whole() {
     let orbit = Camerawork { orbit: 90.0, ..Camerawork::default() };
     assert_eq!(turns(orbit.clone()), [0.0, 30.0, 60.0, 90.0]);
     assert_eq!(turns(Camerawork { each_move: true, ..orbit }), [0.0, 90.0, 180.0, 270.0]);
-    let mover = Camerawork { lead: Lead::Mover, ..Camerawork::default() };
-    assert_eq!(turns(mover), [0.0, 180.0, 0.0, 180.0]);
+    let mover = Camerawork { lead: Lead::Mover { turn: -130.0 }, ..Camerawork::default() };
+    assert_eq!(turns(mover), [0.0, -130.0, 0.0, -130.0]);
 }
 
 /// How far the camera turns or leans between two frames at most.
@@ -186,7 +183,7 @@ fn the_camera_never_jumps() {
     let film =
         |lead| Script { animate: true, ..with(Camerawork { lead, ..Camerawork::default() }) };
     // A half-turn in 0.64 s is 16 frames: 17° a frame where it is quickest.
-    let (step, most) = steps(&film(Lead::Mover), |frame| frame.gaze.orbit);
+    let (step, most) = steps(&film(Lead::Mover { turn: 180.0 }), |frame| frame.gaze.orbit);
     assert!(step < 17.5 && most == 180.0, "{step}, {most}");
     let (step, most) = steps(&film(Lead::Piece), |frame| frame.gaze.lean[0] + 4.0);
     assert!(step < 0.4 && most > 3.5, "{step}, {most}");
@@ -244,20 +241,25 @@ fn paths_that_cannot_be_taken_are_refused() {
 
 #[test]
 fn a_real_pause_follows_the_moves_times() {
-    let text = "1. e4 {[%emt 0:00:02]} e5 {[%emt 0:00:10]} 2. Nf3 {[%emt 0:00:20]} \
-                Nc6 {[%emt 0:01:40]} 3. Bb5 {[%emt 0:00:01]} *";
-    let game = game(text);
-    let film = Film { pause: Pause::Real, fps: 100.0, ..Film::default() };
-    let script = Script { film, animate: true, ..Script::default() };
-    let frames = frames(&whole(&game, &script));
-    // The median of 10, 20, 100 and 1 is 15 s.
-    let pauses = [10.0 / 15.0 * 0.8, 20.0 / 15.0 * 0.8, 2.0, 0.4];
-    let seconds = 1.0 + 5.0 * 0.6 + pauses.iter().sum::<f64>() + 5.0;
-    assert_eq!(frames.len(), (seconds * 100.0_f64).round() as usize);
-    for (index, pause) in pauses.into_iter().enumerate() {
-        let resting = |frame: &&Frame| frame.movers.is_empty() && frame.ply == index + 1;
-        let rests = frames.iter().filter(resting).count() as f64 / 100.0;
-        assert!((rests - pause).abs() < 0.011, "{index}: {rests}");
+    let by_moves = "1. e4 {[%emt 0:00:02]} e5 {[%emt 0:00:10]} 2. Nf3 {[%emt 0:00:20]} \
+                    Nc6 {[%emt 0:01:40]} 3. Bb5 {[%emt 0:00:01]} *";
+    let by_clocks = "[TimeControl \"300+1\"]\n\n\
+                     1. e4 {[%clk 0:04:59]} e5 {[%clk 0:04:51]} 2. Nf3 {[%clk 0:04:40]} \
+                     Nc6 {[%clk 0:03:12]} 3. Bb5 {[%clk 0:04:40]} *";
+    for text in [by_moves, by_clocks] {
+        let game = game(text);
+        let film = Film { pause: Pause::Real, fps: 100.0, ..Film::default() };
+        let script = Script { film, animate: true, ..Script::default() };
+        let frames = frames(&whole(&game, &script));
+        // The median of 10, 20, 100 and 1 is 15 s.
+        let pauses = [10.0 / 15.0 * 0.8, 20.0 / 15.0 * 0.8, 2.0, 0.4];
+        let seconds = 1.0 + 5.0 * 0.6 + pauses.iter().sum::<f64>() + 5.0;
+        assert_eq!(frames.len(), (seconds * 100.0_f64).round() as usize);
+        for (index, pause) in pauses.into_iter().enumerate() {
+            let resting = |frame: &&Frame| frame.movers.is_empty() && frame.ply == index + 1;
+            let rests = frames.iter().filter(resting).count() as f64 / 100.0;
+            assert!((rests - pause).abs() < 0.011, "{index}: {rests}");
+        }
     }
 }
 

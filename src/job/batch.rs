@@ -114,8 +114,8 @@ fn part(
     file: &str,
 ) -> Result<Part, JobError> {
     let (file, number) = (file.to_owned(), game.number);
-    let frames = match Timeline::new(game, first, last, script) {
-        Ok(timeline) => timeline.frames(),
+    let frames = match Timeline::count(game, first, last, script) {
+        Ok(frames) => frames,
         Err(error) => return Err(JobError::Path { file, game: number, error }),
     };
     if frames > MAX_FRAMES {

@@ -1,7 +1,7 @@
 //! From settings to what timelines and stages are told.
 
 use crate::config::{Camera, Captured, Config, ShowClock, View};
-use crate::scene::Reach;
+use crate::scene::{Reach, TO_MOVER};
 use crate::timeline::{Bodies, Camerawork, Film, Lead, Script};
 
 /// How games are shown in time.
@@ -22,7 +22,7 @@ impl Showing {
     pub fn script(&self, config: &Config, bodies: Bodies) -> Script {
         let Camera { view, path, .. } = &config.camera;
         let lead = match view {
-            View::Mover => Lead::Mover,
+            View::Mover => Lead::Mover { turn: TO_MOVER },
             View::Follow => Lead::Piece,
             View::Path => Lead::Path(path.clone()),
             _ => Lead::Nothing,
@@ -40,13 +40,14 @@ impl Showing {
 
     /// What pictures have to hold.
     pub fn reach(&self, config: &Config) -> Reach {
-        let mover = if config.camera.view == View::Mover { 180.0 } else { 0.0 };
+        let mover = if config.camera.view == View::Mover { TO_MOVER } else { 0.0 };
         // So many moves that it is a whole turn, if it turns with each.
         let orbit = if self.orbits_each_move { self.orbit * 360.0 } else { self.orbit };
+        let turns = [0.0, orbit, mover, orbit + mover];
         Reach {
             moves: self.animate,
             captured: self.keeps_captured(config),
-            orbit: orbit.abs() + mover,
+            orbit: [turns.into_iter().fold(0.0, f64::min), turns.into_iter().fold(0.0, f64::max)],
         }
     }
 

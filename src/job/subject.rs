@@ -103,9 +103,10 @@ fn shot(
     let config = &settings.config;
     let showing = Showing::default();
     let script = showing.script(config, bodies(settings, showing.reach(config))?);
-    let timeline = Timeline::new(game, ply, ply, &script);
+    // Of the whole game: a camera's path goes through all of it.
+    let timeline = Timeline::new(game, 0, game.plies.len(), &script);
     let timeline = timeline.map_err(|error| JobError::Path { file, game: game.number, error })?;
-    let frame = timeline.frame(0);
+    let frame = timeline.frame(ply);
     let content = GameCaptions::new(game, config.captions).of(&frame);
     Ok(Shot { texts: texts(game, &frame), content, frame, is_whole: game.is_whole() })
 }

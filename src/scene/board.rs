@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use super::measures::{DEPTH, FRAME, HALF, MIDDLE, SQUARE};
-use super::{Joinery, Material, MaterialError, Materials, Object, Rgb, Side, Surface, Texture};
+use super::{Joinery, Material, MaterialError, Materials, Object, Readers, Rgb, Surface, Texture};
 use crate::assets::normals;
 use crate::config::{Config, Edge, Scheme};
 use crate::geometry::transform::{rotation_y, translation};
@@ -20,22 +20,22 @@ const RIM: f64 = 1e-3;
 /// How far a plain base lies below the squares.
 const STEP: f64 = 0.12;
 
-/// The board, its squares first, and the table if there is one; coordinates, where they are asked for, for a viewer who
-/// has the side `near` before him.
+/// The board, its squares first, and the table if there is one; coordinates, where they are asked for, for their
+/// `readers`.
 ///
 /// # Errors
 /// When `scheme` names a material that is not there.
 pub fn board(
     scheme: &Scheme,
     materials: &Materials,
-    near: Side,
+    readers: Readers,
 ) -> Result<Vec<Object>, MaterialError> {
     let squares = [materials.material(&scheme.dark)?, materials.material(&scheme.light)?];
     let mut frame = materials.material(&scheme.frame)?;
     let inlay = scheme.inlay.as_ref().map(|name| materials.material(name)).transpose()?;
     if scheme.coordinates {
         let inks = inlay.as_ref().map_or(&squares[..], std::slice::from_ref);
-        frame = lettered(frame, inks, near);
+        frame = lettered(frame, inks, readers);
     }
     let mut objects = match scheme.edge {
         Edge::Step => stepped(squares, frame),
@@ -59,12 +59,13 @@ fn stepped(squares: [Material; 2], frame: Material) -> Vec<Object> {
 }
 
 /// A frame with coordinates, in the colour of what stands off it most.
-fn lettered(frame: Material, inks: &[Material], near: Side) -> Material {
+fn lettered(frame: Material, inks: &[Material], readers: Readers) -> Material {
     let ground = frame.texture.mean();
     let inks = inks.iter().map(|material| material.texture.mean());
     let ink = inks.max_by(|a, b| a.distance(ground).total_cmp(&b.distance(ground)));
     let ink = ink.unwrap_or(Rgb::ONE);
-    Material { texture: Texture::Lettered { ground: Box::new(frame.texture), ink, near }, ..frame }
+    let ground = Box::new(frame.texture);
+    Material { texture: Texture::Lettered { ground, ink, readers }, ..frame }
 }
 
 /// What the board fills, without the table.

@@ -65,9 +65,27 @@ impl Side {
     }
 }
 
-/// How much ink there is at the place (`x`, `z`) of the frame's top, 0 to 1, for a viewer who has the
-/// side `near` before him and sees a width of `seen` world units at once.
-pub fn ink(x: f64, z: f64, near: Side, seen: f64) -> f64 {
+/// Who reads coordinates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Readers {
+    /// The side that the viewer has before him.
+    pub near: Side,
+    /// Whether another one sits opposite, and reads the other two sides.
+    pub both: bool,
+}
+
+impl Readers {
+    /// The side that he has before him for whom a `side` is labelled.
+    fn of(self, side: Side) -> Option<Side> {
+        let opposite = self.near.left().left();
+        let mut nears = [self.near, opposite].into_iter().take(if self.both { 2 } else { 1 });
+        nears.find(|near| side == *near || side == near.left())
+    }
+}
+
+/// How much ink there is at the place (`x`, `z`) of the frame's top, 0 to 1, where a width of `seen` world
+/// units is seen at once.
+pub fn ink(x: f64, z: f64, readers: Readers, seen: f64) -> f64 {
     let place = DVec2::new(x, z) - MIDDLE.xz();
     // On which side's part of the frame, how far along, and whether files are named there.
     let (side, along, is_file) = match (place.x.abs() > HALF, place.y.abs() > HALF) {
@@ -77,9 +95,9 @@ pub fn ink(x: f64, z: f64, near: Side, seen: f64) -> f64 {
         (true, false) => (Side::Kingside, place.y, false),
         _ => return 0.0,
     };
-    if side != near && side != near.left() {
+    let Some(near) = readers.of(side) else {
         return 0.0;
-    }
+    };
     let number = ((along + HALF) / SQUARE).floor().clamp(0.0, 7.0);
     let beside = (number + 0.5) * SQUARE - HALF;
     let within = HALF + WITHIN;
@@ -112,10 +130,10 @@ mod tests {
     const AMID: f64 = HALF + WITHIN;
 
     /// Whether there is any ink round a point of the frame, given from the board's middle.
-    fn is_labelled(near: Side, x: f64, z: f64) -> bool {
+    fn is_labelled(readers: Readers, x: f64, z: f64) -> bool {
         let inked = |dx: i32, dz: i32| {
             let at = |from: f64, by: i32| from + 14.0 + 0.05 * f64::from(by);
-            ink(at(x, dx), at(z, dz), near, 0.01) > 0.5
+            ink(at(x, dx), at(z, dz), readers, 0.01) > 0.5
         };
         (-16..=16).any(|dx| (-16..=16).any(|dz| inked(dx, dz)))
     }
@@ -128,15 +146,18 @@ mod tests {
             (Side::Black, [false, true, true, false]),
             (Side::Queenside, [false, false, true, true]),
         ];
-        for (near, labelled) in sides {
+        for (near, both, labelled) in
+            sides.into_iter().flat_map(|(near, one)| [(near, false, one), (near, true, [true; 4])])
+        {
+            let readers = Readers { near, both };
             for square in 0..8 {
                 let along = f64::from(4 * square) - 14.0;
                 let places = [(along, -AMID), (AMID, along), (along, AMID), (-AMID, along)];
-                let found = places.map(|(x, z)| is_labelled(near, x, z));
+                let found = places.map(|(x, z)| is_labelled(readers, x, z));
                 assert_eq!(found, labelled, "{near:?}, {square}");
             }
-            assert!(!is_labelled(near, -AMID, -AMID), "{near:?}: the corner");
-            assert!(!is_labelled(near, 0.0, 0.0), "{near:?}: the squares");
+            assert!(!is_labelled(readers, -AMID, -AMID), "{near:?}: the corner");
+            assert!(!is_labelled(readers, 0.0, 0.0), "{near:?}: the squares");
         }
     }
 
@@ -150,7 +171,8 @@ mod tests {
             (Side::Black, DVec2::new(-10.0, AMID) - stem),
             (Side::Queenside, DVec2::new(-10.0, AMID) + DVec2::new(stem.y, -stem.x)),
         ] {
-            assert!(ink(b.x + 14.0, b.y + 14.0, near, 0.01) == 1.0, "{near:?}");
+            let readers = Readers { near, both: false };
+            assert!(ink(b.x + 14.0, b.y + 14.0, readers, 0.01) == 1.0, "{near:?}");
         }
     }
 
@@ -159,7 +181,7 @@ mod tests {
         // The stem of h: its middle, its edge, and beside it.
         let across = |x: f64, seen| {
             let h = DVec2::new(28.0, 14.0 - AMID) + DVec2::new(-0.28, 0.9 - LETTERS_MIDDLE) * SIZE;
-            ink(h.x + x, h.y, Side::White, seen)
+            ink(h.x + x, h.y, Readers { near: Side::White, both: false }, seen)
         };
         let edge = glyphs::PEN * SIZE;
         assert_eq!([0.0, -edge - 0.1].map(|x| across(x, 0.02)), [1.0, 0.0]);

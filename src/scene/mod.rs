@@ -29,7 +29,7 @@ mod view;
 
 pub use bodies::bodies;
 pub use camera::{Camera, Projection};
-pub use coordinates::Side;
+pub use coordinates::{Readers, Side};
 pub use joinery::Joinery;
 pub use mapping::Mapping;
 pub use material::{Material, Rgb};
@@ -40,7 +40,7 @@ pub use room::{Daylight, Room, Softbox};
 pub use stage::{Stage, StageError};
 pub use surface::Surface;
 pub use texture::{Noise, Place, Texture, linear_light};
-pub use view::Reach;
+pub use view::{Reach, TO_MOVER};
 
 use materials::Materials;
 

@@ -13,9 +13,9 @@ use super::measures::{MIDDLE, SQUARE};
 use super::models::model;
 use super::noise::hash;
 use super::paint::Paints;
-use super::{Camera, Object, Reach, Rgb, Room, Scene, Side, Surface, view};
+use super::{Camera, Object, Reach, Readers, Rgb, Room, Scene, Side, Surface, view};
 use crate::assets::Assets;
-use crate::config::{self, Config, Light, Shading};
+use crate::config::{self, Config, Light, Shading, View};
 use crate::geometry::Csg;
 use crate::geometry::transform::{scale, translation};
 use crate::notation::{Color, Piece, Role, Square};
@@ -78,10 +78,14 @@ impl Stage {
         let room = view::Room { man: view::extent(&set), bodies: &bodies };
         let camera = view::camera(config, room, reach);
         let camera = camera.ok_or(StageError::FocusBehind)?;
-        let mut fixed = board(&scheme, &materials, Side::near(&camera))?;
+        let near = Side::near(&camera);
+        // A camera that goes to both players reads coordinates from both sides.
+        let both = config.camera.view == View::Mover;
+        let mut fixed = board(&scheme, &materials, Readers { near, both })?;
         let has_clock = config.clock.has_place();
-        let clock = has_clock
-            .then(|| Clock::new(&materials, view::clock_place(camera.axes()[2], &bodies, reach)));
+        let clock = has_clock.then(|| {
+            Clock::new(&materials, view::clock_place(config, camera.axes()[2], &bodies, reach))
+        });
         for settings in &config.models {
             fixed.push(model(settings, &materials)?);
         }
@@ -143,8 +147,8 @@ impl Stage {
         let camera = match pose {
             // A lens that shows nothing sharp ahead is none.
             Some(pose) => {
-                let pinhole = Camera::free(pose);
-                let config::Camera { aperture, focus, .. } = self.lens;
+                let config::Camera { aperture, focus, orientation, .. } = self.lens;
+                let pinhole = view::posed(pose, orientation);
                 pinhole.focused(aperture / 2.0, focus).unwrap_or(pinhole)
             }
             None => self.camera,

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3, Vec3Swizzles};
 
 use super::noise::fractal;
-use super::{Mapping, Rgb, Side, coordinates, timber};
+use super::{Mapping, Readers, Rgb, coordinates, timber};
 use crate::assets::{Beyond, Bitmap};
 use crate::config::{self, Axis, Filter};
 
@@ -40,7 +40,7 @@ pub enum Texture {
     },
     /// Coordinates on another texture, on the board's frame: their colour, and the side that they
     /// are to be read from.
-    Lettered { ground: Box<Texture>, ink: Rgb, near: Side },
+    Lettered { ground: Box<Texture>, ink: Rgb, readers: Readers },
     /// A picture; its colours are as they are written, or as linear light.
     Bitmap { bitmap: Arc<Bitmap>, mapping: Mapping, filter: Filter, linear: bool },
 }
@@ -76,8 +76,8 @@ impl Texture {
                 colors[1],
                 timber::shade(lengthways(point, *grain) / ring, seed, seen / ring),
             ),
-            Texture::Lettered { ground, ink, near } => {
-                let cover = coordinates::ink(place.on_body.x, place.on_body.z, *near, seen);
+            Texture::Lettered { ground, ink, readers } => {
+                let cover = coordinates::ink(place.on_body.x, place.on_body.z, *readers, seen);
                 ground.color(place, seen).lerp(*ink, cover)
             }
             Texture::Marble { colors, noise } => {

@@ -20,8 +20,8 @@ pub struct Reach {
     pub moves: bool,
     /// Whether captured pieces stand beside the board.
     pub captured: bool,
-    /// How far the camera turns about the board, in degrees.
-    pub orbit: f64,
+    /// How far the camera turns about the board at most, clockwise (below 0) and anticlockwise, in degrees.
+    pub orbit: [f64; 2],
 }
 
 impl Reach {
@@ -40,6 +40,13 @@ struct Stand {
     /// Degrees that the longer side of the picture covers; nothing in parallel projection.
     field: Option<f64>,
 }
+
+/// From how far beside White's side the board is seen by default, in degrees.
+const ASIDE: f64 = -25.0;
+
+/// The turn from there to as far beside Black's side, past the a-file: what stands beside the h-file, and looks
+/// over the board, is seen from both.
+pub const TO_MOVER: f64 = -180.0 - 2.0 * ASIDE;
 
 /// How much nearer to the board's middle a camera is that leans towards the piece which moves, as a share
 /// of its way there.
@@ -74,20 +81,17 @@ pub fn camera(config: &Config, room: Room, reach: Reach) -> Option<Camera> {
 /// The same without its lens.
 fn pinhole(config: &Config, room: Room, reach: Reach) -> Camera {
     let config::Camera { view, orientation, pose, path, .. } = &config.camera;
-    let half_turn = match orientation {
-        Orientation::White => 0.0,
-        Orientation::Black => 180.0,
-    };
     let Some(Stand { elevation, azimuth, field }) = stand(*view) else {
-        let pose = match (view, path.first()) {
-            (View::Free, _) => *pose,
-            (View::Path, Some(key)) => key.pose,
-            _ => Pose::default(),
-        };
-        let camera = Camera::free(&pose);
-        return if half_turn == 0.0 { camera } else { camera.orbited(MIDDLE, half_turn) };
+        return posed(
+            &match (view, path.first()) {
+                (View::Free, _) => *pose,
+                (View::Path, Some(key)) => key.pose,
+                _ => Pose::default(),
+            },
+            *orientation,
+        );
     };
-    let turn = rotation_y(azimuth + half_turn) * rotation_x(elevation);
+    let turn = rotation_y(azimuth + half_turn(*orientation)) * rotation_x(elevation);
     let axes = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| turn.transform_vector3(axis));
     let points = points(config, room, reach, axes[2]);
     let aspect = f64::from(config.width) / f64::from(config.height);
@@ -100,11 +104,27 @@ fn pinhole(config: &Config, room: Room, reach: Reach) -> Camera {
     }
 }
 
+/// The camera of a pose, as it is given or half a turn from there.
+pub fn posed(pose: &Pose, orientation: Orientation) -> Camera {
+    let camera = Camera::free(pose);
+    match orientation {
+        Orientation::White => camera,
+        Orientation::Black => camera.orbited(MIDDLE, half_turn(orientation)),
+    }
+}
+
+fn half_turn(orientation: Orientation) -> f64 {
+    match orientation {
+        Orientation::White => 0.0,
+        Orientation::Black => 180.0,
+    }
+}
+
 /// Where the views that show the whole board stand.
 fn stand(view: View) -> Option<Stand> {
     let (elevation, azimuth, field) = match view {
-        View::White | View::Mover | View::Follow => (45.0, -25.0, Some(26.0)),
-        View::Black => (45.0, 155.0, Some(26.0)),
+        View::White | View::Mover | View::Follow => (45.0, ASIDE, Some(26.0)),
+        View::Black => (45.0, ASIDE + 180.0, Some(26.0)),
         View::Top => (90.0, 0.0, None),
         View::Side => (35.0, 90.0, Some(26.0)),
         View::Player => (32.0, 0.0, Some(36.0)),
@@ -139,14 +159,15 @@ fn points(config: &Config, room: Room, reach: Reach, forward: DVec3) -> Vec<DVec
         }
     }
     // A camera that has turned one way sees the board turned the other way.
-    let steps = (reach.orbit.abs().min(360.0) / ORBIT_STEP).ceil();
+    let [from, to] = reach.orbit.map(|degrees| degrees.clamp(-360.0, 360.0));
+    let steps = ((to - from).min(360.0) / ORBIT_STEP).ceil();
     let turned = |step: u32| {
-        let turn = rotation_y(-reach.orbit.clamp(-360.0, 360.0) * f64::from(step) / steps.max(1.0));
+        let turn = rotation_y(-from - (to - from).min(360.0) * f64::from(step) / steps.max(1.0));
         translation(MIDDLE) * turn * translation(-MIDDLE)
     };
     let mut corners: Vec<DVec3> = boxes.iter().flat_map(Bounds::corners).collect();
     if config.clock.has_place() {
-        corners.extend(clock::corners(&clock_place(forward, bodies, reach)));
+        corners.extend(clock::corners(&clock_place(config, forward, bodies, reach)));
     }
     (0..=steps as u32)
         .map(turned)
@@ -155,7 +176,9 @@ fn points(config: &Config, room: Room, reach: Reach, forward: DVec3) -> Vec<DVec
 }
 
 /// Where the clock stands for a camera that looks along `forward`.
-pub fn clock_place(forward: DVec3, bodies: &Bodies, reach: Reach) -> DAffine3 {
+pub fn clock_place(config: &Config, forward: DVec3, bodies: &Bodies, reach: Reach) -> DAffine3 {
+    // What goes to both players' sides sees it as well from each.
+    let forward = if config.camera.view == View::Mover { forward * DVec3::X } else { forward };
     clock::place(forward, if reach.needs_bodies() { tray_reach(bodies)[0] * SQUARE } else { 0.0 })
 }
 
@@ -205,7 +228,7 @@ mod tests {
     fn named_views_hold_all_that_there_is_and_see_the_clocks_face_at_any_aspect() {
         let bodies = bodies();
         let still = Reach::default();
-        let film = Reach { moves: true, captured: true, orbit: 0.0 };
+        let film = Reach { moves: true, captured: true, orbit: [0.0; 2] };
         // The frame's corner, the top of a king on a8 and on h1, the clock's corner, a queen that is
         // carried off over a king, one that stands beside the board.
         let points: [(Reach, bool, DVec3); 6] = [
@@ -223,7 +246,7 @@ mod tests {
                         let mut config = config(view, orientation, size);
                         config.clock.show = if clock { ShowClock::Game } else { ShowClock::No };
                         let camera = pinhole(&config, room(&bodies), reach);
-                        let place = clock_place(camera.axes()[2], &bodies, reach);
+                        let place = clock_place(&config, camera.axes()[2], &bodies, reach);
                         let point = if clock { place.transform_point3(point) } else { point };
                         let face = place.transform_vector3(DVec3::X);
                         assert!(face.dot(camera.axes()[2]) < 1e-9, "{name}, {orientation:?}");
@@ -242,7 +265,8 @@ mod tests {
         let bodies = bodies();
         let config = config(View::White, Orientation::White, [150, 100]);
         let at_rest = pinhole(&config, room(&bodies), Reach::default());
-        let orbits = pinhole(&config, room(&bodies), Reach { orbit: 90.0, ..Reach::default() });
+        let orbits =
+            pinhole(&config, room(&bodies), Reach { orbit: [0.0, 90.0], ..Reach::default() });
         let most = |camera: &Camera| {
             let corner = |turn: u32| {
                 let camera = camera.orbited(MIDDLE, f64::from(turn));

@@ -28,8 +28,8 @@ pub struct Camerawork {
 pub enum Lead {
     #[default]
     Nothing,
-    /// It goes to the side of the player who is to move.
-    Mover,
+    /// It goes to the side of the player who is to move, by so many degrees from White's to Black's.
+    Mover { turn: f64 },
     /// It leans towards the piece that moves.
     Piece,
     /// Key frames, in their order.
@@ -47,8 +47,8 @@ pub struct Track {
 #[derive(Clone, Debug)]
 enum LeadTrack {
     Nothing,
-    /// Who moves first.
-    Mover(Color),
+    /// Who moves first, and the turn to Black's side.
+    Mover(Color, f64),
     /// Where each move goes, in squares from the board's middle.
     Piece(Vec<[f64; 2]>),
     Path(Path),
@@ -67,7 +67,7 @@ impl Track {
     ) -> Result<Track, PathError> {
         let lead = match &work.lead {
             Lead::Nothing => LeadTrack::Nothing,
-            Lead::Mover => LeadTrack::Mover(game.turn(first)),
+            Lead::Mover { turn } => LeadTrack::Mover(game.turn(first), *turn),
             Lead::Piece => {
                 let target = |ply: usize| {
                     let Motion { steps, dropped, .. } = Motion::new(&game.plies[ply].played);
@@ -93,7 +93,7 @@ impl Track {
         let still = Gaze { orbit, ..Gaze::default() };
         match &self.lead {
             LeadTrack::Nothing => still,
-            LeadTrack::Mover(first) => {
+            LeadTrack::Mover(first, turn) => {
                 // It turns while the position stands, and is there before the next move.
                 let turned = match moment {
                     Moment::Rest { moves: moves @ 1.., passed } => {
@@ -102,7 +102,7 @@ impl Track {
                     Moment::Move { moves, .. } => moves as f64,
                     _ => moves,
                 };
-                Gaze { orbit: orbit + to_mover(*first, turned), ..still }
+                Gaze { orbit: orbit + turn * to_mover(*first, turned), ..still }
             }
             LeadTrack::Piece(targets) => Gaze { lean: leaning(targets, moves), ..still },
             LeadTrack::Path(path) => Gaze { pose: Some(path.pose(time)), ..still },
@@ -110,11 +110,11 @@ impl Track {
     }
 }
 
-/// How far the camera has turned from White's side, in degrees, when so many half-moves are over since
-/// `first` was to move: to Black's side and back the same way.
+/// How far the camera has turned from White's side to Black's, 0 to 1, when so many half-moves are over
+/// since `first` was to move: there and back the same way.
 fn to_mover(first: Color, turned: f64) -> f64 {
     let from_white = turned + first.fold_wb(0.0, 1.0);
-    180.0 * (1.0 - (from_white.rem_euclid(2.0) - 1.0).abs())
+    1.0 - (from_white.rem_euclid(2.0) - 1.0).abs()
 }
 
 /// The point between the squares that the last moves went to.

@@ -66,6 +66,9 @@ pub fn paced(thought: &[Option<f64>]) -> Vec<f64> {
     thought.iter().map(|seconds| seconds.map_or(TYPICAL, pause)).collect()
 }
 
+/// Less than any step of time that a film can show, in seconds.
+const CRUMB: f64 = 1e-6;
+
 /// When everything happens in one game's film.
 #[derive(Clone, Debug)]
 pub struct Schedule {
@@ -139,6 +142,8 @@ impl Schedule {
 
     /// What happens at a `time` in seconds.
     pub fn at(&self, time: f64) -> Moment {
+        // Sums of decimal fractions leave crumbs, and frames often fall on the very borders.
+        let time = time + CRUMB;
         let Film { title, transition, last, .. } = self.film;
         if time < title {
             return Moment::Title;

@@ -163,6 +163,22 @@ impl<'a> Timeline<'a> {
         Ok(timeline)
     }
 
+    /// The number of frames of such a timeline, without all that they show.
+    ///
+    /// # Errors
+    /// Those of [`Timeline::new`].
+    pub fn count(
+        game: &Game,
+        first: usize,
+        last: usize,
+        script: &Script,
+    ) -> Result<usize, PathError> {
+        let schedule = schedule(game, first, last, script.film);
+        Track::new(&script.camerawork, game, [first, last], &schedule)?;
+        let stills = || stills(last - first, script.film).len();
+        Ok(if script.animate { schedule.frames() } else { stills() })
+    }
+
     /// The number of frames, at least 1.
     pub fn frames(&self) -> usize {
         if self.script.animate { self.schedule.frames() } else { self.stills.len() }
@@ -233,7 +249,8 @@ fn schedule(game: &Game, first: usize, last: usize, film: Film) -> Schedule {
     let pauses = match film.pause {
         Pause::Even(seconds) => vec![seconds; moves.saturating_sub(1)],
         Pause::Real => {
-            let thought: Vec<_> = (first + 2..=last).map(|ply| game.notes(ply).elapsed).collect();
+            let clocks = game.clocks();
+            let thought: Vec<_> = (first + 2..=last).map(|ply| clocks.thought(ply)).collect();
             paced(&thought)
         }
     };
