@@ -9,10 +9,10 @@ use shakmaty::san::SanPlus;
 use shakmaty::{Chess, Position};
 
 use lightsquare::assets::{Assets, SetName};
-use lightsquare::config::{Config, Look};
+use lightsquare::config::{Config, Look, VIEWS};
 use lightsquare::game::{Game, Scanner, Source};
 use lightsquare::notation::{Color, Role, Square};
-use lightsquare::scene::bodies;
+use lightsquare::scene::{Camera, Projection, Reach, Stage, bodies};
 use lightsquare::timeline::{Bodies, Envelope, Film, Frame, Mover, SLICE, Script, Spot, Timeline};
 
 fn set(name: SetName) -> Bodies {
@@ -387,6 +387,56 @@ fn envelopes_hold_their_pieces() {
                 }
             }
             assert!(inside > 1000, "{role:?}: {inside}");
+        }
+    }
+}
+
+/// How far `point` is from the middle of a picture of 3:2, 1 at its edges.
+fn beyond(camera: &Camera, point: DVec3) -> f64 {
+    let [right, up, forward] = camera.axes();
+    let to = point - camera.position();
+    let depth = match camera.projection() {
+        Projection::Perspective => to.dot(forward),
+        Projection::Parallel => 1.0,
+    };
+    let half = camera.width() / 2.0 * depth;
+    (to.dot(right) / half).abs().max((to.dot(up) / half * 1.5).abs())
+}
+
+#[test]
+fn pictures_hold_all_that_moves_in_any_sample_game() {
+    let views = ["white", "black", "top", "side", "player", "mover"];
+    let stages = views.map(|name| {
+        let mut config = Config { width: 300, height: 200, ..Config::default() };
+        config.camera.view = VIEWS.iter().find(|(known, _)| *known == name).unwrap().1;
+        let assets = Assets::load(&config, &SetName::Staunton).unwrap();
+        let reach = Reach { moves: true, captured: true, ..Reach::default() };
+        (name, Stage::new(&config, &assets, reach).unwrap())
+    });
+    let bodies = staunton();
+    let script = script(&bodies);
+    let still = Frame::still(lightsquare::notation::Placement::EMPTY);
+    let cameras = stages.map(|(name, stage)| (name, stage.scene(&still).camera));
+    for entry in std::fs::read_dir("games").unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_none_or(|ending| ending != "pgn") {
+            continue;
+        }
+        for game in games(&path) {
+            let timeline = Timeline::new(&game, 0, game.plies.len(), &script).unwrap();
+            for index in 0..timeline.frames() {
+                let frame = timeline.frame(index);
+                for mover in frame.movers.iter().chain(&frame.taken) {
+                    let Spot { file, rank, height } = mover.spot;
+                    let top = height + bodies.of(mover.piece.role).height();
+                    let top = DVec3::new(file, top, rank) * 4.0;
+                    for (name, camera) in &cameras {
+                        let beyond = beyond(camera, top);
+                        let what = format!("{name}, {}, frame {index}: {mover:?}", path.display());
+                        assert!(beyond < 1.0, "{what}: {beyond}");
+                    }
+                }
+            }
         }
     }
 }

@@ -143,15 +143,15 @@ impl Schedule {
     /// What happens at a `time` in seconds.
     pub fn at(&self, time: f64) -> Moment {
         // Sums of decimal fractions leave crumbs, and frames often fall on the very borders.
-        let time = time + CRUMB;
+        let is_past = |border: f64| time + CRUMB >= border;
         let Film { title, transition, last, .. } = self.film;
-        if time < title {
+        if !is_past(title) {
             return Moment::Title;
         }
-        if time >= self.rests + last && self.film.result > 0.0 {
+        if is_past(self.rests + last) && self.film.result > 0.0 {
             return Moment::Result { moves: self.moves.len() };
         }
-        let begun = self.moves.partition_point(|begin| *begin <= time);
+        let begun = self.moves.partition_point(|begin| is_past(*begin));
         let share = |from: f64, to: f64| {
             if to > from { ((time - from) / (to - from)).clamp(0.0, 1.0) } else { 1.0 }
         };
@@ -160,9 +160,8 @@ impl Schedule {
             return Moment::Rest { moves: 0, passed: share(title, first) };
         };
         let begin = self.moves[index];
-        let passed = share(begin, begin + transition);
-        if passed < 1.0 {
-            return Moment::Move { moves: index, passed };
+        if !is_past(begin + transition) {
+            return Moment::Move { moves: index, passed: share(begin, begin + transition) };
         }
         let next = self.moves.get(begun).copied().unwrap_or(self.rests + last);
         Moment::Rest { moves: begun, passed: share(begin + transition, next) }

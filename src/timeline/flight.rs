@@ -11,6 +11,8 @@ pub struct Flight {
     pub over: f64,
     /// Which share of its own time it takes to rise, and so to sink: 0.5 makes an arc.
     pub rise: f64,
+    /// Whether it sinks in the whole second half of its time instead, gently.
+    pub settles: bool,
     /// Which share of its own time it goes straight up first, and straight down at last.
     pub steep: f64,
     /// When it begins and ends.
@@ -38,10 +40,12 @@ impl Flight {
         let along = ease((own - self.steep) / (1.0 - 2.0 * self.steep));
         let (ground, left) =
             if own < 0.5 { (self.from.height, own) } else { (self.to.height, 1.0 - own) };
+        let lifted =
+            if self.settles && own > 0.5 { ease(2.0 * left) } else { arc(left / self.rise) };
         Spot {
             file: mix(self.from.file, self.to.file, along),
             rank: mix(self.from.rank, self.to.rank, along),
-            height: mix(ground, self.over.max(ground), arc(left / self.rise)),
+            height: mix(ground, self.over.max(ground), lifted),
         }
     }
 }

@@ -1,8 +1,8 @@
 //! How the pieces of a move get where they go without touching anything.
 //!
 //! Each piece takes the first way of a short list that is free: low before high, all at once before
-//! one after the other. The last of the list, straight up, across above everything and straight down
-//! again, one piece after the other, is always free.
+//! one after the other. The last of the list is straight up, across above everything and straight down
+//! again; who makes way is out of the way, or high above, while the other one moves.
 
 use super::bodies::{Bodies, Envelope};
 use super::flight::{Flight, ease};
@@ -24,19 +24,27 @@ const STEP: f64 = 0.05;
 /// The part of a move's time after which a pawn that becomes something else has arrived.
 const ARRIVED: f64 = 0.62;
 
+/// The least size of a pawn and of what it becomes: the square is never empty.
+const SEED: f64 = 0.1;
+
 /// A manner of moving.
 struct Manner {
     /// The least height, in squares.
     least: f64,
-    /// Shares of the time to rise in, and to go straight up in, from the fairest to the safest.
+    /// Shares of the time to rise in, and to go straight up in, from the fairest to the safest; and whether
+    /// it settles gently, but in the last of them.
     shapes: [(f64, f64); 3],
+    settles: bool,
 }
 
 /// A slight lift.
-const GLIDE: Manner = Manner { least: 0.05, shapes: [(0.25, 0.0), (0.25, 0.1), (0.3, 0.3)] };
-const HOP: Manner = Manner { least: 1.0, shapes: [(0.5, 0.0), (0.4, 0.1), (0.3, 0.3)] };
+const GLIDE: Manner =
+    Manner { least: 0.05, shapes: [(0.25, 0.0), (0.25, 0.1), (0.3, 0.3)], settles: false };
+const HOP: Manner =
+    Manner { least: 1.0, shapes: [(0.5, 0.0), (0.4, 0.1), (0.3, 0.3)], settles: false };
 /// A captured piece's way out.
-const LEAVE: Manner = Manner { least: 0.6, shapes: [(0.4, 0.12), (0.35, 0.2), (0.3, 0.3)] };
+const LEAVE: Manner =
+    Manner { least: 0.6, shapes: [(0.4, 0.12), (0.35, 0.2), (0.3, 0.3)], settles: true };
 
 /// When who makes way ends, and when the other one begins and how early it has to be there.
 type Times = (f64, f64, f64);
@@ -108,17 +116,18 @@ impl Plan {
             standing.set(*from, None);
             let spot = flight.at(passed);
             let mut add = |piece, size| {
-                if size > 0.0 {
-                    movers.push(Mover { piece, identity: *identity, spot, size });
-                }
+                movers.push(Mover { piece, identity: *identity, spot, size });
             };
             match becomes {
                 None => add(*piece, 1.0),
                 Some(becomes) => {
                     // The pawn shrinks away, and the other one grows where it stood.
                     let share = (passed - ARRIVED) / (1.0 - ARRIVED);
-                    add(*piece, 1.0 - ease(2.0 * share));
-                    add(*becomes, ease(2.0 * share - 1.0));
+                    if share < 0.5 {
+                        add(*piece, (1.0 - ease(2.0 * share)).max(SEED));
+                    } else {
+                        add(*becomes, ease(2.0 * share - 1.0).max(SEED));
+                    }
                 }
             }
         }
@@ -152,7 +161,7 @@ fn leave<'a>(square: Square, before: &Position, bodies: &'a Bodies) -> Option<Ta
 }
 
 fn level(from: Spot, to: Spot) -> Flight {
-    Flight { from, to, over: 0.0, rise: 0.5, steep: 0.0, begin: 0.0, end: 1.0 }
+    Flight { from, to, over: 0.0, rise: 0.5, settles: false, steep: 0.0, begin: 0.0, end: 1.0 }
 }
 
 /// What stands round the pieces that move.
@@ -186,26 +195,20 @@ impl<'a> Field<'a> {
     /// Ways of two pieces that meet neither others nor each other; `other` makes way for `main`.
     fn together(&self, main: &Task, other: &Task, times: &[Times]) -> Vec<Leg> {
         let free = self.alone(main);
-        let ways: Vec<Flight> = self.ways(other).collect();
-        let fallback = (self.safest(other), free.flight);
-        let pairs = times.iter().flat_map(|(ends, begins, there)| {
-            let main = Flight {
-                begin: begins * free.flight.end,
-                end: there * free.flight.end,
-                ..free.flight
-            };
-            let ways = ways.iter().chain(std::iter::once(&fallback.0));
-            ways.map(move |way| (Flight { end: *ends, ..*way }, main))
-        });
-        let mut apart = pairs.filter(|(way, flight)| {
-            let at_rest = |passed| {
-                let (a, b) = (way.at(passed), flight.at(passed));
-                other.envelope.gap(a, main.envelope, b)
-            };
-            let least = CLEAR.min(at_rest(0.0)).min(at_rest(1.0)) - ROUNDING;
-            looks().all(|passed| at_rest(passed) >= least)
-        });
-        let (way, flight) = apart.next().unwrap_or(fallback);
+        let ways: Vec<Flight> = self.ways(other).chain([self.safest(other)]).collect();
+        let with = |(ends, begins, there): &Times| {
+            let (begin, end) = (begins * free.flight.end, there * free.flight.end);
+            let (ends, main) = (*ends, Flight { begin, end, ..free.flight });
+            ways.iter().map(move |way| (Flight { end: ends, ..*way }, main))
+        };
+        let pairs: Vec<(Flight, Flight)> = times.iter().flat_map(with).collect();
+        let are_apart = |(way, flight): &&(Flight, Flight)| {
+            let gap = |passed| other.envelope.gap(way.at(passed), main.envelope, flight.at(passed));
+            let least = CLEAR.min(gap(0.0)).min(gap(1.0)) - ROUNDING;
+            looks().all(|passed| gap(passed) >= least)
+        };
+        let chosen = pairs.iter().find(are_apart).or(pairs.last());
+        let (way, flight) = chosen.copied().unwrap_or((self.safest(other), free.flight));
         // The piece that goes somewhere is told of first.
         vec![Leg { flight, ..free }, Leg { flight: way, ..other.leg.clone() }]
     }
@@ -217,7 +220,8 @@ impl<'a> Field<'a> {
         let flights = manner.shapes.iter().flat_map(move |(rise, steep)| {
             (0..=heights).map(move |step| {
                 let over = (manner.least + f64::from(step) * STEP).min(self.ceiling);
-                Flight { over, rise: *rise, steep: *steep, ..leg.flight }
+                let settles = manner.settles && *steep < *rise;
+                Flight { over, rise: *rise, settles, steep: *steep, ..leg.flight }
             })
         });
         flights.filter(|flight| self.is_free(task.envelope, flight))

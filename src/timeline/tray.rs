@@ -37,6 +37,8 @@ const ARMY: [Role; 15] = [
 /// The places of one player's captured pieces, one after the other.
 pub struct Tray<'a> {
     bodies: &'a Bodies,
+    /// How many there are.
+    columns: u32,
     /// Whose pieces they are.
     color: Color,
     column: u32,
@@ -47,14 +49,20 @@ pub struct Tray<'a> {
 impl Tray<'_> {
     /// The empty tray of the pieces of `color`.
     pub fn new(bodies: &Bodies, color: Color) -> Tray<'_> {
-        Tray { bodies, color, column: 0, filled: 0.0 }
+        Tray { columns: columns(bodies), ..Tray::endless(bodies, color) }
+    }
+
+    /// One with as many columns as it takes.
+    fn endless(bodies: &Bodies, color: Color) -> Tray<'_> {
+        Tray { bodies, columns: u32::MAX, color, column: 0, filled: 0.0 }
     }
 
     /// The place of the next piece.
     pub fn next(&mut self, role: Role) -> Spot {
         let radius = self.bodies.of(role).radius();
         let length = 2.0 * self.bodies.edge + BEYOND;
-        if self.filled > 0.0 && self.filled + 2.0 * radius > length {
+        // What comes behind all that a player has at first, promoted pieces, makes the last column longer.
+        if self.filled + 2.0 * radius > length && self.column + 1 < self.columns {
             (self.column, self.filled) = (self.column + 1, 0.0);
         }
         let along = self.filled + radius - self.bodies.edge;
@@ -93,13 +101,18 @@ fn width(bodies: &Bodies) -> f64 {
     2.0 * bodies.envelopes[..5].iter().map(|envelope| envelope.radius()).fold(0.0, f64::max) + GAP
 }
 
-/// How far the places of all pieces that a player has at first reach from the board's middle, in squares: to
-/// the side, and along the board.
-pub fn reach(bodies: &Bodies) -> [f64; 2] {
-    let mut tray = Tray::new(bodies, Color::White);
+/// The columns that all pieces take which a player has at first.
+fn columns(bodies: &Bodies) -> u32 {
+    let mut tray = Tray::endless(bodies, Color::White);
     for role in ARMY {
         tray.next(role);
     }
-    let columns = f64::from(tray.column + 1);
+    tray.column + 1
+}
+
+/// How far the places of all pieces that a player has at first reach from the board's middle, in squares: to
+/// the side, and along the board.
+pub fn reach(bodies: &Bodies) -> [f64; 2] {
+    let columns = f64::from(columns(bodies));
     [bodies.edge + GAP + columns * width(bodies), bodies.edge + BEYOND]
 }
