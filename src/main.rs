@@ -53,8 +53,9 @@ fn run() -> anyhow::Result<ExitCode> {
             terminal.detail(&rays(&summary.rays));
             let stopped = if summary.cancelled { "stopped: " } else { "" };
             terminal.say(&format!(
-                "{stopped}{} frames in {}; games: {} whole, {} in part, {} skipped",
+                "{stopped}{} {} in {}; games: {} whole, {} in part, {} skipped",
                 summary.frames,
+                if summary.frames == 1 { "frame" } else { "frames" },
                 job.out.display(),
                 summary.rendered,
                 summary.partial,

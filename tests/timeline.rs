@@ -306,6 +306,9 @@ fn the_clock_shows_what_is_left_and_runs_down_in_the_pause() {
 #[test]
 fn without_times_the_clock_tells_the_move() {
     let game = game("1. e4 e5 *");
-    let names = ["start", "1w", "1b"].map(|name| Dials::Moment(name.to_owned()));
-    assert_eq!(dials(&game, Script::default()), names);
+    let moves = |made, to_move| Dials::Moves { made, to_move };
+    assert_eq!(
+        dials(&game, Script::default()),
+        [moves([0, 0], Color::White), moves([1, 0], Color::Black), moves([1, 1], Color::White)]
+    );
 }

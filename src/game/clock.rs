@@ -44,9 +44,12 @@ impl Game {
         let control = self.tag("TimeControl").and_then(TimeControl::parse);
         let start = control.as_ref().map(TimeControl::start).or(self.start_notes.clock);
         let has_gains = gains(&self.plies);
+        let knows_berserk =
+            self.tag("Site").is_some_and(|site| site.to_lowercase().contains("lichess"));
         let mut players = [Color::White, Color::Black].map(|color| {
             let first = self.plies.iter().find(|ply| ply.mover() == color);
-            Player::new(start, first.and_then(|ply| ply.notes.clock))
+            let first = first.filter(|_| knows_berserk).and_then(|ply| ply.notes.clock);
+            Player::new(start, first)
         });
         let mut clocks =
             Clocks { left: vec![[players[0].left, players[1].left]], ..Clocks::default() };

@@ -1,9 +1,10 @@
 //! Reading games: from PGN text to tags, a start position and legal moves.
 //!
-//! Three steps: `scan` cuts a stream into games, each a main `line` of tokens with variations;
+//! Three steps, each a file: `scan` cuts a stream into games and knows lines and tokens,
 //! `movetext` turns tokens into moves as written (with pgn-reader, and a tolerant reading of what
-//! it drops); `replay` plays them. What comments and glyphs say becomes `notes`, on the way. What cannot be read becomes a [`Problem`] with its line and
-//! token; a game is shown up to its last good move, and the next game is read.
+//! it drops); `replay` plays them. What comments and glyphs say becomes `notes`, on the way. What cannot
+//! be read becomes a [`Problem`] with its line and token; a game is shown up to its last good move, and
+//! the next game is read.
 
 mod bytes;
 mod clock;

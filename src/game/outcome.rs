@@ -19,6 +19,12 @@ impl Game {
         ply.checked_sub(1).map_or(self.start.turn, |index| self.plies[index].after.turn())
     }
 
+    /// The number of the move that comes after `ply` half-moves.
+    pub fn move_number(&self, ply: usize) -> u32 {
+        let counted = ply.checked_sub(1).map(|index| self.plies[index].after.fullmoves());
+        counted.unwrap_or(self.start.fullmoves).get()
+    }
+
     /// The move that led to the position after `ply` half-moves, with its number: `17. Rd8#`,
     /// `16… Nf6`; none leads to the start.
     pub fn numbered_san(&self, ply: usize) -> Option<String> {

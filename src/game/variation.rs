@@ -38,7 +38,7 @@ impl Game {
 
     /// The game as it would have gone: up to where the variation at `path` begins, and then on
     /// with that. Its variations are those of that line, and so are its problems; its result is
-    /// open. `None` if there is no such variation.
+    /// open, and no tag tells another. `None` if there is no such variation.
     pub fn with_variation(&self, path: &[usize]) -> Option<Game> {
         let mut plies = self.plies.clone();
         let (mut variations, mut problems) = (&self.variations, &self.problems);
@@ -53,13 +53,18 @@ impl Game {
             variations: variations.clone(),
             problems: problems.clone(),
             result: "*".to_owned(),
-            tags: self.tags.clone(),
+            tags: self.tags.iter().filter(|(name, _)| !tells_end(name)).cloned().collect(),
             unread_tags: self.unread_tags.clone(),
             start: self.start.clone(),
             start_notes: self.start_notes.clone(),
             ..*self
         })
     }
+}
+
+/// Whether a tag of that name says how the game ended, which a variation has not done.
+fn tells_end(name: &str) -> bool {
+    ["Result", "Termination"].iter().any(|known| known.eq_ignore_ascii_case(name))
 }
 
 /// The variations of a line that have a move.

@@ -5,8 +5,8 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use super::render::RenderJob;
-use super::{JobError, MAX_FRAMES, Progress, say_missing, say_problems, shown};
-use crate::game::{Absent, Game, Problem, Source, printable};
+use super::{JobError, MAX_FRAMES, Progress, say_missing, say_problems, say_variations, shown};
+use crate::game::{Absent, Game, Problem, Source, Variation, printable};
 use crate::notation::Color;
 use crate::output::slug;
 use crate::timeline::{Script, Timeline};
@@ -44,6 +44,19 @@ pub struct VariationPart {
 }
 
 impl Entry {
+    /// Variations of which no move could be played.
+    pub fn unplayable(&self) -> Vec<&Variation> {
+        let mut found = Vec::new();
+        let mut open: Vec<&Variation> = self.game.variations.iter().collect();
+        while let Some(variation) = open.pop() {
+            if variation.plies.is_empty() {
+                found.push(variation);
+            }
+            open.extend(&variation.variations);
+        }
+        found
+    }
+
     /// The frames of the game and of its variations.
     pub fn frames(&self) -> u64 {
         let variations = self.variations.iter().map(|variation| &variation.part);
@@ -93,7 +106,10 @@ pub fn read_batch(
         say_problems(&file, &game, progress);
         let part = span.map(|span| part(job, script, &game, span, &file)).transpose()?;
         let variations = match &part {
-            Some(part) if job.variations => variations(job, script, &game, part, &file, progress)?,
+            Some(part) if job.variations => {
+                say_variations(&game.variations, &file, game.number, progress);
+                variations(job, script, &game, part, &file)?
+            }
             _ => Vec::new(),
         };
         entries.push(Entry { game, part, variations });
@@ -140,7 +156,6 @@ fn variations(
     game: &Game,
     shown: &Part,
     file: &str,
-    progress: &dyn Progress,
 ) -> Result<Vec<VariationPart>, JobError> {
     let mut parts = Vec::new();
     for branch in game.branches() {
@@ -154,7 +169,6 @@ fn variations(
         if !(shown.first..shown.last).contains(&outermost) {
             continue;
         }
-        say_problems(file, &line, progress);
         let part = part(job, script, &line, [variation.ply, line.plies.len()], file)?;
         parts.push(VariationPart {
             path: branch.path,

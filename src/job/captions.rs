@@ -121,7 +121,7 @@ fn clocks(dials: Option<&Dials>) -> [String; 2] {
     };
     match dials {
         Some(Dials::Times { left, .. }) => left.map(|left| left.map(written).unwrap_or_default()),
-        Some(Dials::Moment(_)) | None => Default::default(),
+        Some(Dials::Moves { .. }) | None => Default::default(),
     }
 }
 
@@ -305,7 +305,7 @@ mod tests {
         assert_eq!(clocks(Some(&dials)), ["1:02:03", "0:59"]);
         let dials = Dials::Times { left: [None, Some(0)], running: None };
         assert_eq!(clocks(Some(&dials)), ["", "0:00"]);
-        assert_eq!(clocks(Some(&Dials::Moment("17w".to_owned()))), ["", ""]);
+        assert_eq!(clocks(Some(&Dials::Moves { made: [17, 16], to_move: Color::Black })), ["", ""]);
     }
 
     #[test]

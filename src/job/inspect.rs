@@ -4,8 +4,8 @@ use std::fmt::Display;
 use std::io::Write;
 use std::path::PathBuf;
 
-use super::{JobError, Progress, say_missing, say_problems, shown};
-use crate::game::{Eval, Game, Notes, Ply, Selection, Source, Variation, shortened};
+use super::{JobError, Progress, say_missing, say_problems, say_variations, shown};
+use crate::game::{Eval, Game, Notes, Ply, Selection, Source, shortened};
 use crate::notation::Color;
 
 /// Which games to tell of, and how.
@@ -76,7 +76,7 @@ pub fn inspect(
                 Listing::Games => line(&game, out),
                 Listing::Positions => positions(&game, out),
                 Listing::Notes => {
-                    say_problems_of(&game.variations, &file, game.number, progress);
+                    say_variations(&game.variations, &file, game.number, progress);
                     notes(&game, out)
                 }
             };
@@ -120,16 +120,6 @@ fn positions(game: &Game, out: &mut dyn Write) -> std::io::Result<()> {
         writeln!(out, "{}\t{ply}\t{san}\t{fen}\t{white}\t{black}", game.number)?;
     }
     Ok(())
-}
-
-/// Tells what could not be read in variations.
-fn say_problems_of(variations: &[Variation], file: &str, number: usize, progress: &dyn Progress) {
-    for variation in variations {
-        for problem in &variation.problems {
-            progress.say(&format!("{file}: game {number}, in a variation, {problem}"));
-        }
-        say_problems_of(&variation.variations, file, number, progress);
-    }
 }
 
 fn notes(game: &Game, out: &mut dyn Write) -> std::io::Result<()> {

@@ -30,7 +30,7 @@ use std::path::{Path, PathBuf};
 
 use crate::assets::AssetError;
 use crate::caption::CaptionError;
-use crate::game::{Game, Moment, Selection, SourceError, printable};
+use crate::game::{Game, Moment, Selection, SourceError, Variation, printable};
 use crate::output::OutputError;
 use crate::scene::StageError;
 use crate::timeline::PathError;
@@ -112,6 +112,16 @@ fn shown(path: &Path) -> String {
 fn say_problems(file: &str, game: &Game, progress: &dyn Progress) {
     for problem in &game.problems {
         progress.say(&format!("{file}: game {}, {problem}", game.number));
+    }
+}
+
+/// Tells what could not be read in variations.
+fn say_variations(variations: &[Variation], file: &str, number: usize, progress: &dyn Progress) {
+    for variation in variations {
+        for problem in &variation.problems {
+            progress.say(&format!("{file}: game {number}, in a variation, {problem}"));
+        }
+        say_variations(&variation.variations, file, number, progress);
     }
 }
 

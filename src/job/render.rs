@@ -126,7 +126,7 @@ impl Run<'_> {
             let name = game_folder(game);
             let folder = batch.folder.join(&name);
             let before = self.summary.frames;
-            outcome = self.game(batch, &folder, game, part);
+            outcome = self.game(batch, &folder, game, part, None);
             let mut is_whole = game.is_whole();
             let mut lines = Vec::new();
             for variation in variations {
@@ -135,10 +135,16 @@ impl Run<'_> {
                 }
                 let Some(line) = game.with_variation(&variation.path) else { continue };
                 let before = self.summary.frames;
-                outcome = self.game(batch, &folder.join(&variation.folder), &line, &variation.part);
+                let name = Some(variation.folder.as_path());
+                outcome = self.game(batch, &folder, &line, &variation.part, name);
                 is_whole &= line.is_whole();
                 let frames = (self.summary.frames - before) as usize;
                 lines.push(VariationLine::new(&line, &variation.folder, frames));
+            }
+            if self.job.variations {
+                let unplayable = entry.unplayable();
+                is_whole &= unplayable.is_empty();
+                lines.extend(unplayable.into_iter().map(VariationLine::unplayable));
             }
             let status = match outcome {
                 Ok(()) if self.summary.cancelled => Status::Stopped,
@@ -165,7 +171,9 @@ impl Run<'_> {
         folder: &Path,
         game: &Game,
         part: &Part,
+        variation: Option<&Path>,
     ) -> Result<(), JobError> {
+        let folder = &variation.map_or(folder.to_owned(), |name| folder.join(name));
         prepare_folder(folder)?;
         remove_frames(folder, self.job.frames.as_ref())?;
         let players = [Color::White, Color::Black].map(|color| shortened(game.player(color), 60));
@@ -195,6 +203,7 @@ impl Run<'_> {
             line: game.line,
             tags: tags(game),
             unread_tags: &game.unread_tags,
+            variation: variation.map(|name| name.to_string_lossy().into_owned()),
             result: &game.result,
             problems: &game.problems,
             settings: self.studio.record(),

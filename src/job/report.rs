@@ -6,7 +6,7 @@ use serde::Serialize;
 use serde_json::{Map, Value};
 
 use super::studio::SettingsRecord;
-use crate::game::{Game, Problem, shortened};
+use crate::game::{Game, Problem, Variation, shortened};
 use crate::notation::Color;
 use crate::timeline::{Card, Film, Frame, Gaze};
 
@@ -48,8 +48,9 @@ pub struct ReportLine {
 /// A variation in the line of its game.
 #[derive(Serialize)]
 pub struct VariationLine {
-    /// The folder of the pictures, within the game's.
-    folder: String,
+    /// The folder of the pictures, within the game's; none where no move could be played.
+    folder: Option<String>,
+    /// Half-moves from the game's start.
     plies: usize,
     frames: usize,
     problems: Vec<Problem>,
@@ -59,11 +60,17 @@ impl VariationLine {
     /// The line of a variation, which `line` has gone on with.
     pub fn new(line: &Game, folder: &Path, frames: usize) -> VariationLine {
         VariationLine {
-            folder: folder.to_string_lossy().into_owned(),
+            folder: Some(folder.to_string_lossy().into_owned()),
             plies: line.plies.len(),
             frames,
             problems: line.problems.clone(),
         }
+    }
+
+    /// The line of one of which no move could be played.
+    pub fn unplayable(variation: &Variation) -> VariationLine {
+        let problems = variation.problems.clone();
+        VariationLine { folder: None, plies: variation.ply, frames: 0, problems }
     }
 }
 
@@ -98,6 +105,9 @@ pub struct Manifest<'a> {
     pub line: usize,
     pub tags: Map<String, Value>,
     pub unread_tags: &'a [String],
+    /// The folder that names a variation, within the game's.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub variation: Option<String>,
     pub result: &'a str,
     pub problems: &'a [Problem],
     pub settings: SettingsRecord<'a>,

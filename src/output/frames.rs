@@ -1,6 +1,7 @@
 //! Names of numbered pictures.
 
 use std::fs;
+use std::io;
 use std::ops::RangeInclusive;
 use std::path::Path;
 
@@ -19,8 +20,9 @@ pub fn manifest_name(part: Option<&RangeInclusive<usize>>) -> String {
     }
 }
 
-/// Removes the numbered pictures of an earlier run from `folder`, and manifests of parts of it: they would
-/// stand among the new ones, and be of another film. Where a `part` is rendered, only its pictures.
+/// Removes the numbered pictures of an earlier run from `folder`, manifests of parts of it, and all of its
+/// variations: they would stand among the new ones, and be of another film. Where a `part` is rendered, only its
+/// pictures.
 ///
 /// # Errors
 /// When the folder cannot be read, or a picture cannot be removed.
@@ -30,18 +32,43 @@ pub fn remove_frames(
 ) -> Result<(), OutputError> {
     let failed = |error| OutputError { path: folder.to_owned(), error };
     for entry in fs::read_dir(folder).map_err(failed)? {
-        let path = entry.map_err(failed)?.path();
-        let name = path.file_name().map(|name| name.to_string_lossy()).unwrap_or_default();
+        let entry = entry.map_err(failed)?;
+        let name = entry.file_name().to_string_lossy().into_owned();
+        // What a link leads to is not ours.
+        let kind = entry.file_type().map_err(failed)?;
+        if kind.is_dir() && part.is_none() && is_variation(&name) {
+            let folder = entry.path();
+            remove_frames(&folder, None)?;
+            remove_if_there(&folder.join(manifest_name(None))).map_err(failed)?;
+            // Somebody may keep other things in it.
+            let _ = fs::remove_dir(&folder);
+            continue;
+        }
         let is_old = match (frame_index(&name), part) {
             (Some(index), Some(part)) => part.contains(&index),
             (Some(_), None) => true,
             (None, part) => part.is_none() && is_part_manifest(&name),
         };
-        if is_old && path.is_file() {
-            fs::remove_file(&path).map_err(failed)?;
+        if is_old && !kind.is_dir() {
+            remove_if_there(&entry.path()).map_err(failed)?;
         }
     }
     Ok(())
+}
+
+fn remove_if_there(path: &Path) -> io::Result<()> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+        _ => Ok(()),
+    }
+}
+
+/// Whether a folder is named as those of variations are: `12w-nf3`.
+fn is_variation(name: &str) -> bool {
+    let rest = name.trim_start_matches(|c: char| c.is_ascii_digit());
+    let san = rest.strip_prefix("w-").or(rest.strip_prefix("b-"));
+    let is_plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
+    rest.len() < name.len() && san.is_some_and(|san| !san.is_empty() && san.chars().all(is_plain))
 }
 
 /// Which picture has that name, if one has.
@@ -70,6 +97,17 @@ mod tests {
         }
         for other in ["frame_1.png", "frame_0000x.png", "frame_00001.jpg", "my_frame_00001.png"] {
             assert_eq!(frame_index(other), None, "{other}");
+        }
+    }
+
+    #[test]
+    fn folders_of_variations_are_told_from_others() {
+        for name in ["12w-nf3", "1b-o-o-o-2", "100w-axb8q"] {
+            assert!(is_variation(name), "{name}");
+        }
+        for other in ["w-nf3", "12w", "12w-", "12-nf3", "12w-Nf3", "0001-morphy-black", "12w-../x"]
+        {
+            assert!(!is_variation(other), "{other}");
         }
     }
 

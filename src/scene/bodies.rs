@@ -18,8 +18,11 @@ const MARGIN: f64 = 0.012;
 
 /// The room that the pieces of `set` take, and the board.
 pub fn bodies(set: &PieceSet) -> Bodies {
-    let men = [&set.pawn, &set.knight, &set.bishop, &set.rook, &set.queen, &set.king];
-    Bodies { envelopes: men.map(envelope), edge: (HALF + FRAME) / SQUARE, table: -DEPTH / SQUARE }
+    Bodies {
+        envelopes: set.men().map(envelope),
+        edge: (HALF + FRAME) / SQUARE,
+        table: -DEPTH / SQUARE,
+    }
 }
 
 /// What `piece` fills when it is turned about its axis.

@@ -18,7 +18,7 @@ use crate::assets::Assets;
 use crate::config::{self, Config, Light, Shading, View};
 use crate::geometry::Csg;
 use crate::geometry::transform::{scale, translation};
-use crate::notation::{Color, Piece, Role, Square};
+use crate::notation::{Color, Piece, Square};
 use crate::timeline::{Bodies, Frame, Gaze, Mover, Spot};
 
 /// A quarter of the least step that a picture can show. (Each surface of glass splits a ray in
@@ -161,16 +161,11 @@ impl Stage {
         self.object(*piece, *identity, *spot, *size)
     }
 
-    /// A piece on its spot, as large as the share `size` of it. Its grain is that of its identity; in the thesis all are of one tree.
+    /// A piece on its spot, as large as the share `size` of it. Its grain is that of its identity; in the
+    /// thesis all are of one tree.
     fn object(&self, piece: Piece, identity: Square, spot: Spot, size: f64) -> Object {
-        let solid = match piece.role {
-            Role::Pawn => 0,
-            Role::Knight => 1,
-            Role::Bishop => 2,
-            Role::Rook => 3,
-            Role::Queen => 4,
-            Role::King => 5,
-        };
+        // Roles are numbered from 1, the pawn's.
+        let solid = &self.pieces[piece.role as usize - 1];
         let place = DVec3::new(spot.file, spot.height, spot.rank) * SQUARE + DVec3::Y * FELT;
         let place = translation(place) * self.facing.turn(piece) * scale(size);
         let surface = &self.surfaces[match piece.color {
@@ -178,6 +173,6 @@ impl Stage {
             Color::Black => 1,
         }];
         let seed = if self.room.is_some() { hash(1, identity.to_usize() as u64) } else { 0 };
-        Object { seed, ..Object::placed(self.pieces[solid].clone(), place, surface.clone()) }
+        Object { seed, ..Object::placed(solid.clone(), place, surface.clone()) }
     }
 }

@@ -70,8 +70,7 @@ pub struct Room<'a> {
 
 /// The smallest box that is known to hold each piece of a set where it was made.
 pub fn extent(set: &PieceSet) -> Bounds {
-    let men = [&set.pawn, &set.knight, &set.bishop, &set.rook, &set.queen, &set.king];
-    men.iter().fold(Bounds::EMPTY, |all, man| all.union(man.bounds()))
+    set.men().iter().fold(Bounds::EMPTY, |all, man| all.union(man.bounds()))
 }
 
 /// The camera that `config` asks for, before any orbit, with pieces that take so much `room`; `None` when

@@ -17,14 +17,8 @@ pub struct Bodies {
 impl Bodies {
     /// The room of a piece.
     pub fn of(&self, role: Role) -> &Envelope {
-        &self.envelopes[match role {
-            Role::Pawn => 0,
-            Role::Knight => 1,
-            Role::Bishop => 2,
-            Role::Rook => 3,
-            Role::Queen => 4,
-            Role::King => 5,
-        }]
+        // Roles are numbered from 1 in this order.
+        &self.envelopes[role as usize - 1]
     }
 
     /// The height of the tallest piece, and of the tallest one that can be captured.
@@ -37,7 +31,8 @@ impl Bodies {
 /// The thickness of an envelope's slices.
 pub const SLICE: f64 = 1.0 / 32.0;
 
-/// A body of revolution that a piece fits into, whichever way it is turned, as slices of equal thickness.
+/// A body of revolution that a piece fits into, whichever way it is turned, as slices of equal thickness. It
+/// is measured by rays (`scene::bodies`): what is thinner than a twentieth of a square may stand out.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Envelope {
     radii: Vec<f64>,

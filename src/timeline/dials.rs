@@ -12,8 +12,8 @@ const FLAGGING: f64 = 0.6;
 pub struct Clock {
     clocks: Clocks,
     first_ply: usize,
-    /// Who is to move after each half-move, from the first shown one on, and the name of that moment.
-    moments: Vec<(Color, String)>,
+    /// Who is to move after each half-move, from the first shown one on, and the number of that move.
+    turns: Vec<(Color, u32)>,
     /// The ply after which the game has no more moves.
     end: usize,
 }
@@ -21,11 +21,11 @@ pub struct Clock {
 impl Clock {
     /// The clock of `game` from ply `first` to ply `last`.
     pub fn new(game: &Game, first: usize, last: usize) -> Clock {
-        let moment = |ply| (game.turn(ply), game.moment_name(ply));
+        let turn = |ply| (game.turn(ply), game.move_number(ply));
         Clock {
             clocks: game.clocks(),
             first_ply: first,
-            moments: (first..=last).map(moment).collect(),
+            turns: (first..=last).map(turn).collect(),
             end: game.plies.len(),
         }
     }
@@ -40,11 +40,11 @@ impl Clock {
             Moment::Result { moves } => (moves, 1.0),
         };
         let ply = self.first_ply + moves;
-        let (player, name) = &self.moments[moves];
+        let (player, number) = self.turns[moves];
         if !self.clocks.is_known() {
-            return Dials::Moment(name.clone());
+            let made = number.saturating_sub(1);
+            return Dials::Moves { made: [made + player.fold_wb(0, 1), made], to_move: player };
         }
-        let player = *player;
         let mut left = self.clocks.left(ply);
         let own = &mut left[player.fold_wb(0, 1)];
         let is_over = ply == self.end;

@@ -50,6 +50,14 @@ impl Path {
         first: usize,
         schedule: &Schedule,
     ) -> Result<Path, PathError> {
+        // Who says `end` means it, even where a game, or a variation, ends before a move that is named.
+        let has_end = keys.last().is_some_and(|key| key.at == When::End);
+        let ends = |key: &&KeyFrame| {
+            let moment = moment(key.at).filter(|_| key.at != When::End);
+            moment.is_some_and(|moment| moment.counted(game) >= game.plies.len() as i64)
+        };
+        let keys: Vec<KeyFrame> =
+            keys.iter().filter(|key| !(has_end && ends(key))).copied().collect();
         let times: Vec<f64> = keys.iter().map(|key| time(key.at, game, first, schedule)).collect();
         for (keys, times) in keys.windows(2).zip(times.windows(2)) {
             if times[1] <= times[0] {
@@ -101,13 +109,23 @@ impl Path {
 
 /// When a key frame is, in seconds from the film's beginning.
 fn time(at: When, game: &Game, first: usize, schedule: &Schedule) -> f64 {
-    let moment = match at {
-        When::Seconds(seconds) => return seconds,
-        When::Start => Moment::Ply(0),
-        When::End => Moment::End,
-        When::After { number, is_blacks } => Moment::After(number, Color::from_white(!is_blacks)),
-    };
-    schedule.reached(moment.counted(game) - first as i64)
+    match (at, moment(at)) {
+        (_, Some(moment)) => schedule.reached(moment.counted(game) - first as i64),
+        (When::Seconds(seconds), None) => seconds,
+        (_, None) => 0.0,
+    }
+}
+
+/// The position that a time names, if it does.
+fn moment(at: When) -> Option<Moment> {
+    match at {
+        When::Seconds(_) => None,
+        When::Start => Some(Moment::Ply(0)),
+        When::End => Some(Moment::End),
+        When::After { number, is_blacks } => {
+            Some(Moment::After(number, Color::from_white(!is_blacks)))
+        }
+    }
 }
 
 fn values(pose: &Pose) -> Values {
@@ -120,7 +138,8 @@ fn pose([x, y, z, lx, ly, lz, fov, z_rot]: Values) -> Pose {
 }
 
 /// The slopes of smooth curves that never leave the range of the two key frames they are between
-/// (Fritsch and Butland 1984): the weighted harmonic mean of the slopes on both sides, and none at turning points and ends.
+/// (Fritsch and Butland 1984): the weighted harmonic mean of the slopes on both sides, and none at turning
+/// points and ends.
 fn slopes(times: &[f64], poses: &[Values]) -> Vec<Values> {
     let slope = |key: usize, index: usize| {
         if key == 0 || key + 1 == times.len() {

@@ -24,8 +24,9 @@ pub struct Marks {
 pub enum Dials {
     /// Whole seconds left to White and to Black, where they are known.
     Times { left: [Option<u32>; 2], running: Option<Color> },
-    /// Of a game without times: the number of the move, as in `17w` or `start`.
-    Moment(String),
+    /// Of a game without times: how many moves each player has made, where the position's number says it,
+    /// and whose move it is.
+    Moves { made: [u32; 2], to_move: Color },
 }
 
 /// How far the camera is from where it stands at the film's beginning.

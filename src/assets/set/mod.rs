@@ -47,6 +47,13 @@ pub struct PieceSet {
     pub king: Csg,
 }
 
+impl PieceSet {
+    /// Pawn, knight, bishop, rook, queen and king.
+    pub fn men(&self) -> [&Csg; 6] {
+        [&self.pawn, &self.knight, &self.bishop, &self.rook, &self.queen, &self.king]
+    }
+}
+
 /// Why a set cannot be had: the file, the line where there is one, and what is wrong.
 #[derive(Debug, thiserror::Error)]
 #[error("{file}: {}{message}", .line.map(|line| format!("line {line}: ")).unwrap_or_default())]

@@ -6,7 +6,7 @@ mod digits;
 mod face;
 mod reading;
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use glam::{DAffine3, DVec3};
 
@@ -18,7 +18,7 @@ use crate::config::{self, Coat, Filter, Finish};
 use crate::geometry::transform::{rotation_x, rotation_y, translation};
 use crate::geometry::{Bounds, Cuboid};
 use crate::timeline::Dials;
-use reading::readings;
+use reading::{Reading, readings};
 
 /// The case where it was made: on the table, with its face towards x.
 const CASE: Cuboid = Cuboid { min: DVec3::new(-1.5, -DEPTH, -6.0), max: DVec3::new(1.5, 5.2, 6.0) };
@@ -80,6 +80,8 @@ pub struct Clock {
     brass: Surface,
     filter: Filter,
     is_linear: bool,
+    /// The face that was painted last, and what it shows: most frames show the same.
+    painted: Mutex<Option<([Reading; 2], Surface)>>,
 }
 
 impl Clock {
@@ -97,6 +99,7 @@ impl Clock {
             is_linear: materials.is_linear(),
             settings,
             place,
+            painted: Mutex::default(),
         })
     }
 
@@ -119,7 +122,13 @@ impl Clock {
             min: DVec3::new(CASE.max.x, CASE.min.y + RIM, CASE.min.z + RIM),
             max: DVec3::new(CASE.max.x + THICKNESS, CASE.max.y - RIM, CASE.max.z - RIM),
         };
-        let face = self.face(&plate, &[left, right]);
+        let shown = [left, right];
+        let mut painted = self.painted.lock().unwrap_or_else(PoisonError::into_inner);
+        let face = match painted.take() {
+            Some((last, face)) if last == shown => face,
+            _ => self.face(&plate, &shown),
+        };
+        *painted = Some((shown, face.clone()));
         let body = |solid: Cuboid, place: DAffine3, surface: Surface| {
             Object::placed(Arc::new(solid), self.place * place, surface)
         };
@@ -132,7 +141,7 @@ impl Clock {
     }
 
     /// The painted face, for `plate`.
-    fn face(&self, plate: &Cuboid, readings: &[reading::Reading; 2]) -> Surface {
+    fn face(&self, plate: &Cuboid, readings: &[Reading; 2]) -> Surface {
         let size = plate.max - plate.min;
         let finish = Finish {
             ambient: 0.45,

@@ -32,14 +32,13 @@ pub fn readings(settings: &config::Clock, dials: Option<&Dials>) -> Option<[Read
             let [white, black] = left.map(Reading::left);
             Some(running_for(*running, [white, black]))
         }
-        (ShowClock::Game, Some(Dials::Moment(_)))
+        (ShowClock::Game, Some(Dials::Moves { .. }))
             if settings.without_times == WithoutTimes::Absent =>
         {
             None
         }
-        (ShowClock::Game, Some(Dials::Moment(moment))) => {
-            let (made, to_move) = moves_made(moment);
-            Some(running_for(to_move, made.map(Reading::of_moves)))
+        (ShowClock::Game, Some(Dials::Moves { made, to_move })) => {
+            Some(running_for(Some(*to_move), made.map(Reading::of_moves)))
         }
     }
 }
@@ -83,9 +82,8 @@ impl Reading {
     }
 
     /// A clock that only counts moves.
-    fn of_moves(moves: Option<u32>) -> Reading {
-        let window = moves.map_or("--".to_owned(), |moves| moves.to_string());
-        Reading { window, ..Reading::at(0) }
+    fn of_moves(moves: u32) -> Reading {
+        Reading { window: moves.to_string(), ..Reading::at(0) }
     }
 }
 
@@ -96,19 +94,6 @@ fn digital(seconds: u32) -> String {
         format!("{hours}:{minutes:02}:{seconds:02}")
     } else {
         format!("{minutes}:{seconds:02}")
-    }
-}
-
-/// How many moves each player has made after a move such as `17w`, and who is to move; unknown at the
-/// start, which may be that of a part of a game.
-fn moves_made(moment: &str) -> ([Option<u32>; 2], Option<Color>) {
-    let number = |text: Option<&str>| text.and_then(|text| text.parse::<u32>().ok());
-    if let Some(moves) = number(moment.strip_suffix('w')) {
-        ([Some(moves), Some(moves.saturating_sub(1))], Some(Color::Black))
-    } else if let Some(moves) = number(moment.strip_suffix('b')) {
-        ([Some(moves), Some(moves)], Some(Color::White))
-    } else {
-        ([None, None], None)
     }
 }
 
@@ -145,20 +130,19 @@ mod tests {
     #[test]
     fn moves_are_counted_where_there_are_no_times() {
         let cases = [
-            ("17w", ["17", "16"], [false, true]),
-            ("17b", ["17", "17"], [true, false]),
-            ("start", ["--", "--"], [false, false]),
+            ([17, 16], Color::Black, ["17", "16"], [false, true]),
+            ([17, 17], Color::White, ["17", "17"], [true, false]),
         ];
-        for (moment, windows, running) in cases {
-            let readings = game(Dials::Moment(moment.to_owned()));
-            assert_eq!(readings.clone().map(|reading| reading.window), windows, "{moment}");
-            assert_eq!(readings.map(|reading| reading.is_running), running, "{moment}");
+        for (made, to_move, windows, running) in cases {
+            let readings = game(Dials::Moves { made, to_move });
+            assert_eq!(readings.clone().map(|reading| reading.window), windows);
+            assert_eq!(readings.map(|reading| reading.is_running), running);
         }
     }
 
     #[test]
     fn a_clock_is_absent_where_it_is_told_to() {
-        let moment = Dials::Moment("17w".to_owned());
+        let moment = Dials::Moves { made: [17, 16], to_move: Color::Black };
         let times = Dials::Times { left: [Some(1), Some(2)], running: None };
         let (no, fixed, game) = (ShowClock::No, ShowClock::Fixed, ShowClock::Game);
         let (moves, absent) = (WithoutTimes::Moves, WithoutTimes::Absent);
