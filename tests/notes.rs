@@ -302,11 +302,17 @@ fn moves_take_what_the_clocks_say() {
             &[s(10.0), None, s(0.0)],
             [s(51.0), None],
         ),
-        // Half the time, by choice.
+        // Half the time by choice, as on lichess; elsewhere it was spent.
+        (
+            &format!("{}[Site \"https://lichess.org/x\"]", control("60+2")),
+            "1. e4 {[%clk 0:00:30]} e5 2. d4 {[%clk 0:00:29]} *",
+            &[s(0.0), None, s(1.0)],
+            [s(29.0), None],
+        ),
         (
             &control("60+2"),
             "1. e4 {[%clk 0:00:30]} e5 2. d4 {[%clk 0:00:29]} *",
-            &[s(0.0), None, s(1.0)],
+            &[s(32.0), None, s(3.0)],
             [s(29.0), None],
         ),
         // Periods: the time is added when the moves are made, or when it is used up.

@@ -1,6 +1,6 @@
 //! Reading games: from PGN text to tags, a start position and legal moves.
 //!
-//! Three steps, each a file: `scan` cuts a stream into games and knows lines and tokens,
+//! Three steps: `scan` cuts a stream into games, each a main `line` of tokens with variations;
 //! `movetext` turns tokens into moves as written (with pgn-reader, and a tolerant reading of what
 //! it drops); `replay` plays them. What comments and glyphs say becomes `notes`, on the way. What cannot
 //! be read becomes a [`Problem`] with its line and token; a game is shown up to its last good move, and
