@@ -2,7 +2,7 @@
 
 use crate::config::{self, ShowClock, WithoutTimes};
 use crate::notation::Color;
-use crate::timeline::Dials;
+use crate::timeline::{Dials, digital};
 
 /// What one half of the clock shows.
 #[derive(Clone, Debug, PartialEq)]
@@ -86,16 +86,6 @@ impl Reading {
     fn of_moves(moves: Option<u32>) -> Reading {
         let window = moves.map_or("--".to_owned(), |moves| moves.to_string());
         Reading { window, ..Reading::at(0) }
-    }
-}
-
-/// `1:02:03`, `12:34`, `0:09`.
-fn digital(seconds: u32) -> String {
-    let (hours, minutes, seconds) = (seconds / 3600, seconds / 60 % 60, seconds % 60);
-    if hours > 0 {
-        format!("{hours}:{minutes:02}:{seconds:02}")
-    } else {
-        format!("{minutes}:{seconds:02}")
     }
 }
 
