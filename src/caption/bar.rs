@@ -49,7 +49,7 @@ fn sign(is_negative: bool) -> &'static str {
 /// White's chances where White is so many pawns better, from 0 to 1: the curve that lichess.org
 /// fitted to its games and published (lichess.org/page/accuracy),
 /// 50 + 50 × (2 / (1 + exp(−0.00368208 × centipawns)) − 1) per cent.
-pub fn share(pawns: f64) -> f64 {
+pub(super) fn share(pawns: f64) -> f64 {
     0.5 + 0.5 * (2.0 / (1.0 + libm::exp(-0.368208 * pawns)) - 1.0)
 }
 

@@ -69,11 +69,21 @@ pub fn draw(canvas: &mut Canvas, fonts: &Fonts, tone: &Tone, content: &Content, 
             ]
         }
         Card::Result => {
-            let [white, black] =
-                [white, black].map(|player| Span::new(fonts, &player.name, Weight::Bold, tone.ink));
+            let bold = |player: &Player| Span::new(fonts, &player.name, Weight::Bold, tone.ink);
             let dash = Span::new(fonts, "–", Weight::Regular, tone.quiet);
-            vec![
-                words(vec![white, dash, black], 0.8, 1.3),
+            let spans = [bold(white), dash, bold(black)];
+            let (size, height) = (0.8, 1.3);
+            let line = |spans: Vec<Span>| Line::new(spans, 0.4, size * em);
+            let beside = line(spans.to_vec());
+            let names = if beside.fits(fonts, room) {
+                vec![beside.fitted(fonts, room)]
+            } else {
+                let [white, dash, black] = spans.map(|span| line(vec![span]));
+                let [white, black] = Line::both_fitted([white, black], fonts, room);
+                vec![white, dash, black]
+            };
+            let names = names.into_iter().map(|line| row(line, size, height));
+            let others = vec![
                 words(vec![Span::new(fonts, &content.result, Weight::Bold, tone.ink)], 2.4, 3.1),
                 words(
                     vec![Span::new(fonts, &content.ending, Weight::Regular, tone.ink)],
@@ -82,7 +92,8 @@ pub fn draw(canvas: &mut Canvas, fonts: &Fonts, tone: &Tone, content: &Content, 
                 ),
                 rule(),
                 quiet(&content.occasion.join(" · "), 0.52),
-            ]
+            ];
+            names.chain(others).collect()
         }
     };
     let rows: Vec<Row> = without_loose_rules(rows.into_iter().flatten().collect());

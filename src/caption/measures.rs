@@ -5,9 +5,38 @@ use crate::config::Captions;
 /// The smallest letters that can be read, in pixels an em.
 const SMALLEST: f32 = 10.0;
 
-/// How high a strip of one row of words is and one of two, in ems of the upper row.
-const ONE_ROW: f32 = 1.9;
-const TWO_ROWS: f32 = 3.5;
+/// The rows of words in a strip.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rows {
+    /// Names and the move.
+    One,
+    /// These, and below them clocks and the tournament.
+    Two,
+    /// White, Black, the move, the tournament: in a narrow picture two names and a move have no room
+    /// beside each other.
+    Four,
+}
+
+impl Rows {
+    /// How high a strip of them is, in ems of the upper row.
+    const fn height(self) -> f32 {
+        match self {
+            Rows::One => 1.9,
+            Rows::Two => 3.5,
+            Rows::Four => 6.2,
+        }
+    }
+
+    /// As many as a picture of a width has room for, where the strip is at most so high.
+    fn within(width: f32, height: f32, em: f32) -> Rows {
+        let is_narrow = width < NARROW * SMALLEST;
+        let most = if is_narrow { [Rows::Four, Rows::Two] } else { [Rows::Two; 2] };
+        most.into_iter().find(|rows| rows.height() * em <= height).unwrap_or(Rows::One)
+    }
+}
+
+/// In a strip that is not so many ems wide names stand below each other, if there is room.
+const NARROW: f32 = 30.0;
 
 /// The pictures' size that an em of the upper row grows with: this share of the mean side.
 const SHARE: f32 = 0.022;
@@ -38,7 +67,7 @@ pub enum CaptionError {
 /// # Errors
 /// When it would be too small for words that can be read.
 pub fn strip_height(settings: &Captions, width: u32, height: u32) -> Result<u32, CaptionError> {
-    let least = (ONE_ROW * SMALLEST).ceil();
+    let least = (Rows::One.height() * SMALLEST).ceil();
     let (least_width, least_height) = (LEAST_WIDTH, (least / MOST).ceil());
     let (wide, high) = (width as f32, height as f32);
     if wide < least_width || high < least_height {
@@ -51,8 +80,8 @@ pub fn strip_height(settings: &Captions, width: u32, height: u32) -> Result<u32,
         return if strip < least { Err(CaptionError::TooLow { strip, least }) } else { Ok(strip) };
     }
     let em = (SHARE * (wide * high).sqrt()).min(wide / EMS).max(SMALLEST);
-    let rows = if TWO_ROWS * em <= MOST * high { TWO_ROWS } else { ONE_ROW };
-    Ok((rows * em).round().min(MOST * high) as u32)
+    let rows = Rows::within(wide, MOST * high, em);
+    Ok((rows.height() * em).round().min(MOST * high) as u32)
 }
 
 /// What a strip of a size holds.
@@ -60,13 +89,13 @@ pub fn strip_height(settings: &Captions, width: u32, height: u32) -> Result<u32,
 pub struct Measures {
     /// An em of the upper row, in pixels.
     pub em: f32,
-    pub has_two_rows: bool,
+    pub rows: Rows,
 }
 
 impl Measures {
     pub fn of(width: f32, strip: f32) -> Measures {
-        let has_two_rows = strip + 0.5 >= TWO_ROWS * SMALLEST;
-        let em = strip / if has_two_rows { TWO_ROWS } else { ONE_ROW };
-        Measures { em: em.min((width / EMS).max(SMALLEST)), has_two_rows }
+        let rows = Rows::within(width, strip + 0.5, SMALLEST);
+        let em = strip / rows.height();
+        Measures { em: em.min((width / EMS).max(SMALLEST)), rows }
     }
 }

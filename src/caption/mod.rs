@@ -16,8 +16,10 @@ mod tone;
 #[cfg(test)]
 mod tests;
 
-pub use bar::{Gauge, share};
-pub use measures::{CaptionError, strip_height};
+pub use bar::Gauge;
+pub use measures::CaptionError;
+
+use std::sync::LazyLock;
 
 use image::{DynamicImage, GenericImage, GenericImageView, Rgb, RgbImage, Rgba};
 
@@ -25,6 +27,7 @@ use crate::config::Config;
 use crate::notation::Color;
 use canvas::Canvas;
 use font::Fonts;
+use measures::strip_height;
 use tone::Tone;
 
 /// What a picture says. Texts that are empty are left out.
@@ -32,6 +35,8 @@ use tone::Tone;
 pub struct Content {
     /// White, and Black.
     pub players: [Player; 2],
+    /// Whether times of theirs are told, be they known at this moment or not.
+    pub has_clocks: bool,
     /// Whose move it is; nobody's once the game is over.
     pub to_move: Option<Color>,
     /// The move that led to the position, or is under way: `17. Rd8#`.
@@ -73,8 +78,11 @@ pub struct Caption {
     width: u32,
     height: u32,
     strip: u32,
+    /// Whether moves are told at all.
+    tells_moves: bool,
     tone: Tone,
-    fonts: Fonts,
+    /// Read when the first words are written.
+    fonts: LazyLock<Fonts>,
 }
 
 impl Caption {
@@ -87,7 +95,9 @@ impl Caption {
         let strip =
             if config.captions.show { strip_height(&config.captions, width, height)? } else { 0 };
         let tone = Tone::new(config.captions.tone, config.scheme().background);
-        Ok(Caption { width, height, strip, tone, fonts: Fonts::new() })
+        let tells_moves = config.captions.moved;
+        let fonts = LazyLock::new(Fonts::new as fn() -> Fonts);
+        Ok(Caption { width, height, strip, tells_moves, tone, fonts })
     }
 
     /// How many rows of a picture are left for the scene, at least 1.
@@ -106,13 +116,16 @@ impl Caption {
         let ground = RgbImage::from_pixel(self.width, self.strip, Rgb(self.tone.ground));
         let mut canvas = Canvas::new(ground);
         if self.strip > 0 {
-            strip::draw(&mut canvas, &self.fonts, &self.tone, content);
+            strip::draw(&mut canvas, &self.fonts, &self.tone, content, self.tells_moves);
         }
         let strip = canvas.into_picture();
         match scene {
             DynamicImage::ImageRgba8(scene) => {
                 let opaque = |Rgb([red, green, blue]): Rgb<u8>| Rgba([red, green, blue, 255]);
                 DynamicImage::ImageRgba8(self.joined(scene, &strip, opaque))
+            }
+            DynamicImage::ImageRgb8(scene) => {
+                DynamicImage::ImageRgb8(self.joined(scene, &strip, |color| color))
             }
             _ => DynamicImage::ImageRgb8(self.joined(&scene.to_rgb8(), &strip, |color| color)),
         }

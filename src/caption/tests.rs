@@ -2,8 +2,10 @@
 
 use image::{DynamicImage, GenericImageView, RgbImage, Rgba, RgbaImage};
 
+use super::bar::share;
 use super::canvas::Canvas;
 use super::font::{Fonts, Weight};
+use super::measures::{Measures, Rows};
 use super::text::{Line, Span};
 use super::*;
 use crate::config::{self as settings, Captions};
@@ -26,6 +28,7 @@ fn content() -> Content {
     };
     Content {
         players: [player("Morphy, Paul"), player("Duke Karl / Count Isouard")],
+        has_clocks: true,
         to_move: Some(Color::White),
         moved: "16… Nxb8??".to_owned(),
         occasion: vec!["Paris".to_owned(), "1858".to_owned()],
@@ -213,6 +216,105 @@ fn the_strip_leaves_the_scene_as_it_is() {
             assert_eq!(caption.draw(&scene, &content()), picture);
         }
     }
+}
+
+/// The strip of a picture.
+fn strip(width: u32, height: u32, content: &Content) -> DynamicImage {
+    let caption = Caption::new(&config(width, height)).unwrap();
+    let above = caption.scene_height();
+    let scene = DynamicImage::new_rgb8(width, above);
+    caption.draw(&scene, content).crop_imm(0, above, width, height - above)
+}
+
+/// After a move, and judged by a number.
+fn told(moved: &str, label: &str) -> Content {
+    let gauge = Some(Gauge { share: 0.5, label: label.to_owned() });
+    Content { moved: moved.to_owned(), gauge, ..content() }
+}
+
+#[test]
+fn names_stand_still_whatever_the_move() {
+    for (width, height) in [(300, 100), (320, 180), (480, 320), (160, 400)] {
+        let names = |content: &Content| {
+            let strip = strip(width, height, content);
+            let rows = if height > width { strip.height() / 2 } else { strip.height() };
+            strip.crop_imm(0, 0, width / 4, rows)
+        };
+        let start = names(&told("", ""));
+        for (moved, label) in [("1. e4", ""), ("1. e4", "+0.3"), ("99… Rdxd8=Q+!!", "−10.0")] {
+            assert_eq!(names(&told(moved, label)), start, "{moved} {label} {width} x {height}");
+        }
+    }
+}
+
+#[test]
+fn names_have_the_same_room_whatever_the_clocks_show() {
+    let names = |clock: &str| {
+        let players = content().players.map(|player| Player { clock: clock.to_owned(), ..player });
+        let strip = strip(160, 400, &Content { players, ..content() });
+        strip.crop_imm(0, 0, 100, strip.height() / 2)
+    };
+    assert_eq!(names(""), names("1:02:03"));
+    assert_eq!(names("0:59"), names("1:02:03"));
+}
+
+#[test]
+fn room_is_kept_only_for_clocks_that_there_are() {
+    let last_ink = |has_clocks: bool| {
+        let players = content().players.map(|player| Player { clock: String::new(), ..player });
+        let strip = strip(300, 100, &Content { players, has_clocks, ..content() }).to_rgb8();
+        let ink = strip.enumerate_pixels().filter(|(_, y, pixel)| *y > 4 && pixel.0[0] > 200);
+        ink.map(|(x, ..)| x).max().unwrap()
+    };
+    assert!(last_ink(false) > 270 && last_ink(true) < 250);
+}
+
+#[test]
+fn in_a_narrow_picture_names_stand_below_each_other_if_there_is_room() {
+    for (width, height, rows) in [
+        (160, 400, Rows::Four),
+        (160, 247, Rows::Two),
+        (160, 100, Rows::One),
+        (299, 400, Rows::Four),
+        (300, 400, Rows::Two),
+        (1200, 800, Rows::Two),
+    ] {
+        let strip = strip_height(&Captions::default(), width, height).unwrap();
+        assert_eq!(Measures::of(width as f32, strip as f32).rows, rows, "{width} x {height}");
+    }
+    let [white, black] = content().players;
+    let other = |player: &Player| Player { name: "So, Wesley".to_owned(), ..player.clone() };
+    let both = strip(160, 400, &content());
+    for players in [[other(&white), black.clone()], [white.clone(), other(&black)]] {
+        assert_ne!(strip(160, 400, &Content { players, ..content() }), both);
+    }
+}
+
+#[test]
+fn where_the_number_has_no_room_the_move_stays_whole() {
+    let drawn = |moved: &str, label: &str| strip(120, 76, &told(moved, label));
+    assert_ne!(drawn("1. e4", "+0.3"), drawn("1. e4", ""));
+    assert_eq!(drawn("9. cxd8=Q+!", "+0.3"), drawn("9. cxd8=Q+!", ""));
+    assert_ne!(drawn("9. cxd8=Q+!", ""), drawn("9. cxd8=Q+?", ""));
+}
+
+#[test]
+fn a_result_card_names_both_players_however_long_they_are() {
+    let card = |white: &str, black: &str| {
+        let player = |first: &str| Player {
+            name: format!("{first} Непомнящий-Константинопольский, Александр Владимирович"),
+            ..Player::default()
+        };
+        let players = [player(white), player(black)];
+        let scene = DynamicImage::new_rgb8(240, 160);
+        let card = Some(Card::Result);
+        let mut config = config(240, 160);
+        config.captions.show = false;
+        let caption = Caption::new(&config).unwrap();
+        caption.draw(&scene, &Content { players, card, ..Content::default() })
+    };
+    let both = card("A", "B");
+    assert!(card("C", "B") != both && card("A", "C") != both);
 }
 
 #[test]

@@ -7,7 +7,7 @@ use super::font::{Face, Fonts, Shape, Weight};
 pub const CAPITAL: f32 = 0.727;
 
 /// The smallest share of its size that a line is shrunk to before it is cut.
-const LEAST: f32 = 0.8;
+pub const LEAST: f32 = 0.8;
 
 /// No line has room for more letters; what a file holds may be as long as it likes.
 const MOST: usize = 200;
@@ -45,8 +45,7 @@ impl Span {
         Span { is_spare: true, ..self }
     }
 
-    /// Its letters with the places of their origins from its beginning in ems, and its width.
-    fn set(&self, face: &Face) -> (Vec<(char, f32)>, f32) {
+    fn set(&self, face: &Face) -> Vec<Letter> {
         let cell = ('0'..='9').map(|digit| face.advance(digit)).fold(0.0, f32::max);
         let mut letters = Vec::new();
         let mut x = 0.0;
@@ -54,17 +53,31 @@ impl Span {
         for letter in self.text.chars() {
             let advance = face.advance(letter);
             if self.is_tabular && letter.is_ascii_digit() {
-                letters.push((letter, x + (cell - advance) / 2.0));
+                let at = x + (cell - advance) / 2.0;
                 x += cell;
+                letters.push(Letter { letter, at, end: x });
             } else {
                 x += before.map_or(0.0, |before| face.kern(before, letter));
-                letters.push((letter, x));
+                letters.push(Letter { letter, at: x, end: x + advance });
                 x += advance;
             }
             before = Some(letter).filter(|_| !self.is_tabular);
         }
-        (letters, x)
+        letters
     }
+}
+
+/// A letter of a span that is set; places are from the span's beginning, in ems.
+struct Letter {
+    letter: char,
+    /// Of its origin.
+    at: f32,
+    end: f32,
+}
+
+/// How wide a span's letters are, in ems.
+fn width(letters: &[Letter]) -> f32 {
+    letters.last().map_or(0.0, |last| last.end)
 }
 
 /// Spans on one baseline, with `gap` ems between them.
@@ -94,7 +107,7 @@ impl Line {
     }
 
     fn span_width(&self, fonts: &Fonts, span: &Span) -> f32 {
-        span.set(fonts.face(span.weight)).1 * span.scale * self.size
+        width(&span.set(fonts.face(span.weight))) * span.scale * self.size
     }
 
     /// The line in so many pixels: as it is, or smaller, or without its spare spans, or with its
@@ -115,6 +128,11 @@ impl Line {
         self
     }
 
+    /// Whether [`Line::fitted`] makes it smaller at most.
+    pub fn fits(&self, fonts: &Fonts, room: f32) -> bool {
+        self.width(fonts) * LEAST < room
+    }
+
     /// Two lines as [`Line::fitted`] makes them, in letters of one size, and both without what one of
     /// them has no room for.
     pub fn both_fitted(lines: [Line; 2], fonts: &Fonts, room: f32) -> [Line; 2] {
@@ -129,7 +147,7 @@ impl Line {
 
     /// Whether there is no room even when it is shrunk, and it has something to do without.
     fn wants_less(&self, fonts: &Fonts, room: f32) -> bool {
-        self.width(fonts) * LEAST > room && self.spans.iter().any(|span| span.is_spare)
+        !self.fits(fonts, room) && self.spans.iter().any(|span| span.is_spare)
     }
 
     fn drop_spare(&mut self) {
@@ -140,15 +158,22 @@ impl Line {
 
     fn cut_longest(&mut self, fonts: &Fonts, room: f32) {
         let widths = self.spans.iter().map(|span| self.span_width(fonts, span));
-        let Some((longest, _)) = widths.enumerate().max_by(|a, b| a.1.total_cmp(&b.1)) else {
+        let Some((longest, all)) = widths.enumerate().max_by(|a, b| a.1.total_cmp(&b.1)) else {
             return;
         };
-        let mut letters: Vec<char> = self.spans[longest].text.chars().collect();
+        let room = room - (self.width(fonts) - all);
+        let span = &self.spans[longest];
+        let face = fonts.face(span.weight);
+        let mut letters = span.set(face);
         while letters.pop().is_some() {
-            let text: String = letters.iter().collect();
-            let head = text.trim_end_matches(|c: char| !c.is_alphanumeric() && c != ')');
-            self.spans[longest].text = format!("{head}…");
-            if self.width(fonts) <= room && !head.is_empty() {
+            let Some(Letter { letter, end, .. }) = letters.last() else {
+                break;
+            };
+            let is_end_of_word = letter.is_alphanumeric() || *letter == ')';
+            let ellipsis = face.kern(*letter, '…') + face.advance('…');
+            if is_end_of_word && (end + ellipsis) * span.scale * self.size <= room {
+                let head = letters.iter().map(|letter| letter.letter);
+                self.spans[longest].text = head.chain(['…']).collect();
                 return;
             }
         }
@@ -174,11 +199,11 @@ impl Line {
         for span in &self.spans {
             let face = fonts.face(span.weight);
             let size = span.scale * self.size;
-            let (letters, width) = span.set(face);
-            for (letter, at) in letters {
-                draw_letter(canvas, face, (letter, span.ink), size, x + at * size, baseline);
+            let letters = span.set(face);
+            for Letter { letter, at, .. } in &letters {
+                draw_letter(canvas, face, (*letter, span.ink), size, x + at * size, baseline);
             }
-            x += width * size + self.gap * self.size;
+            x += width(&letters) * size + self.gap * self.size;
         }
     }
 }

@@ -5,7 +5,7 @@ use crate::caption::{Card, Content, Gauge, Player};
 use crate::config::Captions;
 use crate::game::{Ending, Eval, Game};
 use crate::notation::Color;
-use crate::timeline::{self, Dials, Frame};
+use crate::timeline::{self, Dials, Frame, digital};
 
 /// Captions of one game.
 pub struct GameCaptions<'a> {
@@ -38,7 +38,8 @@ impl<'a> GameCaptions<'a> {
         let says = |part: bool| part || card.is_some();
         let tells_result = (is_over && settings.event) || card == Some(Card::Result);
         let shown_ply = if is_moving { frame.ply + 1 } else { frame.ply };
-        let clocks = clocks(frame.dials.as_ref().filter(|_| settings.clocks));
+        let dials = frame.dials.as_ref().filter(|_| settings.clocks);
+        let clocks = clocks(dials);
         let mut players = [Color::White, Color::Black].map(|color| player(game, color));
         for (player, clock) in players.iter_mut().zip(clocks) {
             player.clock = clock;
@@ -48,6 +49,7 @@ impl<'a> GameCaptions<'a> {
         }
         Content {
             players,
+            has_clocks: matches!(dials, Some(Dials::Times { .. })),
             to_move: (!is_over).then(|| game.turn(frame.ply)),
             moved: if settings.moved { moved(game, shown_ply) } else { String::new() },
             occasion: if says(settings.event) { wording::occasion(game) } else { Vec::new() },
@@ -73,7 +75,8 @@ pub fn of_fen(fen: &str, settings: Captions) -> Option<Content> {
     Some(Content { to_move: Some(to_move), moved: moved.to_owned(), ..Content::default() })
 }
 
-/// The last known judgement at each position; at a mate no other is needed.
+/// The judgement of each position. The bar stands where the last one left it; a number is only there
+/// where the position has its own, or is mate.
 fn gauges(game: &Game) -> Vec<Gauge> {
     let plies = 0..=game.plies.len();
     if plies.clone().all(|ply| game.notes(ply).eval.is_none()) {
@@ -82,12 +85,12 @@ fn gauges(game: &Game) -> Vec<Gauge> {
     let mut last = Gauge::even();
     let mut gauges = Vec::with_capacity(game.plies.len() + 1);
     for ply in plies {
-        match game.notes(ply).eval {
-            Some(Eval::Pawns(pawns)) => last = Gauge::pawns(pawns),
-            Some(Eval::Mate(0)) => last = Gauge::mated(game.turn(ply)),
-            Some(Eval::Mate(moves)) => last = Gauge::mate(moves),
-            None => {}
-        }
+        last = match game.notes(ply).eval {
+            Some(Eval::Pawns(pawns)) => Gauge::pawns(pawns),
+            Some(Eval::Mate(0)) => Gauge::mated(game.turn(ply)),
+            Some(Eval::Mate(moves)) => Gauge::mate(moves),
+            None => Gauge { label: String::new(), ..last },
+        };
         gauges.push(last.clone());
     }
     if let (Some(Ending::Checkmate), Some(gauge)) = (game.ending(), gauges.last_mut()) {
@@ -100,7 +103,7 @@ fn player(game: &Game, color: Color) -> Player {
     let name = color.fold_wb("White", "Black");
     let tag = |ending: &str| {
         let value = game.tag(&format!("{name}{ending}")).unwrap_or_default().trim();
-        if matches!(value, "-" | "0") { String::new() } else { value.to_owned() }
+        if matches!(value, "-" | "?" | "0") { String::new() } else { value.to_owned() }
     };
     Player {
         name: Some(tag("")).filter(|tag| !tag.is_empty()).unwrap_or(name.to_owned()),
@@ -111,16 +114,8 @@ fn player(game: &Game, color: Color) -> Player {
 }
 
 fn clocks(dials: Option<&Dials>) -> [String; 2] {
-    let written = |seconds: u32| {
-        let (hours, minutes, seconds) = (seconds / 3600, seconds / 60 % 60, seconds % 60);
-        if hours > 0 {
-            format!("{hours}:{minutes:02}:{seconds:02}")
-        } else {
-            format!("{minutes}:{seconds:02}")
-        }
-    };
     match dials {
-        Some(Dials::Times { left, .. }) => left.map(|left| left.map(written).unwrap_or_default()),
+        Some(Dials::Times { left, .. }) => left.map(|left| left.map(digital).unwrap_or_default()),
         Some(Dials::Moves { .. }) | None => Default::default(),
     }
 }
@@ -238,17 +233,47 @@ mod tests {
     }
 
     #[test]
-    fn a_judgement_holds_until_the_next() {
+    fn the_bar_stays_at_the_last_judgement_and_the_number_is_the_positions_own() {
+        let judged = |game: &Game| -> Vec<(String, f64)> {
+            let gauges = contents(game, shown()).into_iter().map(|content| content.gauge.unwrap());
+            gauges.map(|gauge| (gauge.label, gauge.share)).collect()
+        };
         let game = game(
-            "1. e4 {[%eval 0.2]} e5 2. Bc4 Nc6 3. Qh5 Nf6 {[%eval #1]} 4. Qxf7# {[%eval #0]} 1-0",
+            "1. e4 {[%eval 0.2]} e5 2. Bc4 (2. Qh5 {[%eval -0.4]} Nc6) 2... Nc6 3. Qh5 \
+             Nf6 {[%eval #1]} 4. Qxf7# 1-0",
         );
-        let labels: Vec<String> = contents(&game, shown())
-            .into_iter()
-            .map(|content| content.gauge.unwrap().label)
+        let [even, ahead, behind] = [0.0, 0.2, -0.4].map(|pawns| Gauge::pawns(pawns).share);
+        let expected = [
+            ("", even),
+            ("+0.2", ahead),
+            ("", ahead),
+            ("", ahead),
+            ("", ahead),
+            ("", ahead),
+            ("#1", 1.0),
+            // After the mate the bar is the winner's.
+            ("#", 1.0),
+        ];
+        assert_eq!(judged(&game), expected.map(|(label, share)| (label.to_owned(), share)));
+        let variation = game.with_variation(&[0]).unwrap();
+        let expected = [("", even), ("+0.2", ahead), ("", ahead), ("−0.4", behind), ("", behind)];
+        assert_eq!(judged(&variation), expected.map(|(label, share)| (label.to_owned(), share)));
+    }
+
+    #[test]
+    fn while_a_move_is_under_way_the_number_is_that_of_the_position_left() {
+        let game = game("1. e4 {[%eval 0.2]} e5 *");
+        let script = Script { animate: true, ..Script::default() };
+        let timeline = Timeline::new(&game, 0, 2, &script).unwrap();
+        let captions = GameCaptions::new(&game, shown());
+        let mut seen: Vec<(bool, String)> = (0..timeline.frames())
+            .map(|index| timeline.frame(index))
+            .map(|frame| (frame.movers.is_empty(), captions.of(&frame).unwrap().gauge.unwrap()))
+            .map(|(is_at_rest, gauge)| (is_at_rest, gauge.label))
             .collect();
-        assert_eq!(labels, ["", "+0.2", "+0.2", "+0.2", "+0.2", "+0.2", "#1", "#"]);
-        // After the mate the bar is the winner's.
-        assert_eq!(contents(&game, shown())[7].gauge, Some(Gauge::mated(Color::Black)));
+        seen.dedup();
+        let expected = [(true, ""), (false, ""), (true, "+0.2"), (false, "+0.2"), (true, "")];
+        assert_eq!(seen, expected.map(|(is_at_rest, label)| (is_at_rest, label.to_owned())));
     }
 
     #[test]

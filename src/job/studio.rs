@@ -66,14 +66,22 @@ fn antialiasing(render: &Render) -> Antialiasing {
     }
 }
 
+/// The picture that was made last.
+struct Shot {
+    /// What of the frame can be seen.
+    shown: Frame,
+    scene: DynamicImage,
+    /// What was said on it, and the whole picture.
+    said: Option<(Content, DynamicImage)>,
+}
+
 /// Makes pictures of frames.
 pub(super) struct Studio<'a> {
     settings: &'a PictureSettings,
     /// As high as the scene is.
     stage: Stage,
     caption: Caption,
-    /// The scene that was traced last.
-    last: Option<(Frame, DynamicImage)>,
+    last: Option<Shot>,
     threads: rayon::ThreadPool,
     rays: RayCounts,
 }
@@ -98,18 +106,19 @@ impl<'a> Studio<'a> {
     }
 
     /// The picture of a frame, with `content` in words if there is any. A pause is one scene many
-    /// times over: it is traced once, and what is said is drawn on a copy.
+    /// times over: it is traced once, and the same words are written on it once.
     pub fn picture(&mut self, frame: &Frame, content: Option<&Content>) -> DynamicImage {
         let shown = self.shown_of(frame);
-        let scene = match self.last.take() {
-            Some((last, scene)) if shown.shows_the_same(&last) => scene,
-            _ => self.trace(&shown),
+        let (scene, said) = match self.last.take() {
+            Some(last) if shown.shows_the_same(&last.shown) => (last.scene, last.said),
+            _ => (self.trace(&shown), None),
         };
-        let picture = match content {
-            Some(content) => self.caption.draw(&scene, content),
-            None => scene.clone(),
-        };
-        self.last = Some((shown, scene));
+        let said = content.map(|content| match said {
+            Some((last, picture)) if last == *content => (last, picture),
+            _ => (content.clone(), self.caption.draw(&scene, content)),
+        });
+        let picture = said.as_ref().map_or(&scene, |(_, picture)| picture).clone();
+        self.last = Some(Shot { shown, scene, said });
         picture
     }
 

@@ -4,7 +4,8 @@ use crate::game::{Ending, Game};
 
 /// The tournament, its place, date and round, as far as they are known.
 pub fn occasion(game: &Game) -> Vec<String> {
-    let known = |name: &str| game.tag(name).map(str::trim).filter(|value| *value != "-");
+    let is_known = |value: &&str| !matches!(*value, "" | "?" | "-");
+    let known = |name: &str| game.tag(name).map(str::trim).filter(is_known);
     let event = known("Event").map(str::to_owned);
     let site = known("Site").map(place);
     // A tournament that bears the name of its town is not told twice.
@@ -123,6 +124,22 @@ mod tests {
             let separator = if moves.starts_with('[') { "" } else { "\n" };
             let text = format!("[Termination \"{termination}\"]\n{separator}{moves}");
             assert_eq!(ending(&game(&text)), expected, "{text}");
+        }
+    }
+
+    #[test]
+    fn what_is_blank_or_unknown_is_not_told() {
+        for (event, site, round, expected) in [
+            (" ", "Paris", " ", vec!["Paris", "2 November 1858"]),
+            ("Opera", " ", "2", vec!["Opera", "2 November 1858", "round 2"]),
+            (" ? ", " - ", "-", vec!["2 November 1858"]),
+            ("Paris", "Paris FRA", "?", vec!["Paris FRA", "2 November 1858"]),
+        ] {
+            let text = format!(
+                "[Event \"{event}\"]\n[Site \"{site}\"]\n[Date \"1858.11.02\"]\n\
+                 [Round \"{round}\"]\n\n*"
+            );
+            assert_eq!(occasion(&game(&text)), expected, "{text}");
         }
     }
 

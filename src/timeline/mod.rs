@@ -22,7 +22,7 @@ pub use film::{Film, Pause};
 pub use path::PathError;
 pub use pieces::{Identities, Mover, Spot};
 pub use plan::ceiling;
-pub use shown::{Card, Dials, Gaze, Marks};
+pub use shown::{Card, Dials, Gaze, Marks, digital};
 pub use tray::reach as tray_reach;
 
 use std::cell::OnceCell;

@@ -29,6 +29,16 @@ pub enum Dials {
     Moves { made: [u32; 2], to_move: Color },
 }
 
+/// Seconds as a digital clock shows them: `1:02:03`, `12:34`, `0:09`.
+pub fn digital(seconds: u32) -> String {
+    let (hours, minutes, seconds) = (seconds / 3600, seconds / 60 % 60, seconds % 60);
+    if hours > 0 {
+        format!("{hours}:{minutes:02}:{seconds:02}")
+    } else {
+        format!("{minutes}:{seconds:02}")
+    }
+}
+
 /// How far the camera is from where it stands at the film's beginning.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Gaze {

@@ -2,7 +2,7 @@
 
 use crate::config::{self, ShowClock, WithoutTimes};
 use crate::notation::Color;
-use crate::timeline::Dials;
+use crate::timeline::{Dials, digital};
 
 /// What one half of the clock shows.
 #[derive(Clone, Debug, PartialEq)]
@@ -84,16 +84,6 @@ impl Reading {
     /// A clock that only counts moves.
     fn of_moves(moves: u32) -> Reading {
         Reading { window: moves.to_string(), ..Reading::at(0) }
-    }
-}
-
-/// `1:02:03`, `12:34`, `0:09`.
-fn digital(seconds: u32) -> String {
-    let (hours, minutes, seconds) = (seconds / 3600, seconds / 60 % 60, seconds % 60);
-    if hours > 0 {
-        format!("{hours}:{minutes:02}:{seconds:02}")
-    } else {
-        format!("{minutes}:{seconds:02}")
     }
 }
 
