@@ -24,8 +24,8 @@ const STEP: f64 = 0.05;
 /// The part of a move's time after which a pawn that becomes something else has arrived.
 const ARRIVED: f64 = 0.62;
 
-/// The least size of a pawn and of what it becomes: the square is never empty.
-const SEED: f64 = 0.1;
+/// The least size of a pawn and of what it becomes: small enough to change into each other, and never nothing.
+const SEED: f64 = 0.3;
 
 /// A manner of moving.
 struct Manner {
