@@ -238,6 +238,8 @@ fn bad_input_gets_a_sentence_and_leaves_nothing_behind() {
     write("prose.pgn", b"Dear Sir,\nthis is no game.\n");
     write("game.pgn", b"[White \"A\"]\n\n1. e4 *\n");
     write("bad.ini", b"[Camera]\nFVO=90\nZRot=NaN\n");
+    write("path.ini", b"[CameraPath]\n9w=0,40,-40 | 14,0,14 | 60\n3b=14,40,-40 | 14,0,14 | 60\n");
+    write("late.ini", b"[CameraPath]\n9w=0,40,-40 | 14,0,14 | 60\n2=14,40,-40 | 14,0,14 | 60\n");
     write("file", b"");
     let before = tree(out.path()).len();
     let cases: &[(&[&str], i32, &str)] = &[
@@ -270,6 +272,58 @@ fn bad_input_gets_a_sentence_and_leaves_nothing_behind() {
             &["render", "game.pgn", "--animate", "--pause", "-1"],
             2,
             "'--pause <S|real>': expected a number from 0 to 3600, or real",
+        ),
+        (
+            &["render", "game.pgn", "--animate", "--fps", "1000"],
+            2,
+            "invalid value '1000' for '--fps <N>': expected a number from 1 to 240",
+        ),
+        (
+            &["render", "game.pgn", "--title=-1"],
+            2,
+            "invalid value '-1' for '--title[=<S>]': expected a number from 0 to 3600",
+        ),
+        (
+            &["render", "game.pgn", "--frames", "100-50"],
+            2,
+            "'--frames <FRAMES>': expected a frame's number from 0 on, or two with a hyphen, the lower one first",
+        ),
+        (
+            &["render", "game.pgn", "--animate", "--frames", "160-165"],
+            1,
+            "--frames: game.pgn: game 1 has frames 0 to 164, expected a part of them, found 160 to 165",
+        ),
+        (
+            &["render", "game.pgn", "--frames", "2"],
+            1,
+            "game 1 has frames 0 to 1, expected a part of them, found 2",
+        ),
+        (
+            &["render", "game.pgn", "--variations", "--frames", "0"],
+            2,
+            "the argument '--variations' cannot be used with '--frames <FRAMES>'",
+        ),
+        (&["render", "game.pgn", "--camera", "plyer"], 2, "a similar value exists: 'player'"),
+        (&["render", "game.pgn", "--camera", "path"], 2, "`path` needs a section [CameraPath]"),
+        (
+            &["render", "game.pgn", "--animate", "--orbit-over", "move"],
+            2,
+            "required arguments were not provided:\n  --orbit <DEG>",
+        ),
+        (
+            &["render", "game.pgn", "-c", "path.ini"],
+            1,
+            "path.ini: line 3: the key frame `3b` stands behind `9w`, expected each later than the one before",
+        ),
+        (
+            &["render", "game.pgn", "-c", "late.ini"],
+            1,
+            "game.pgn: game 1: [CameraPath]: the key frame `2` comes at 2.00 s, and `9w` before it at 24.00 s",
+        ),
+        (
+            &["diagram", "game.pgn", "--arrows", "e4e4"],
+            2,
+            "invalid value 'e4e4' for '--arrows <ARROWS>': goes from a square to itself, expected two squares",
         ),
         (&["render", "game.pgn", "--orbit", "NaN"], 2, "'--orbit <DEG>': expected a number"),
         (
