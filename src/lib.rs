@@ -6,16 +6,16 @@
 //!              │       │          │       │        └ numbered pictures, manifests, reports
 //!              │       │          │       └ Scene → pixels, by Phong's sum or in the studio's light
 //!              │       │          └ Frame → bodies, materials, lights or a room, camera
-//!              │       └ which pieces stand or move where at time t, and the camera's turn
-//!              └ tags, start position, legal moves
+//!              │       └ what stands, moves or is marked where at time t; the clock, the camera's turn
+//!              └ tags, start position, legal moves, variations, comments
 //! notation: Placement ⇄ "VA1JB1…"   the seam: the chess side ends in it, the picture side starts
 //! ```
 //!
 //! | module | holds | may use |
 //! | --- | --- | --- |
 //! | [`notation`] | [`notation::Placement`]: pieces and squares of both players, in the thesis's letters | – |
-//! | [`game`] | reading PGN into games; selection | notation |
-//! | [`timeline`] | frames: at time *t* a placement, the movers between squares, each piece's identity | game, notation, config |
+//! | [`game`] | reading PGN into games, with variations and what comments say; selection | notation |
+//! | [`timeline`] | frames: at time *t* a placement, the movers between squares and beside the board, each piece's identity, marks, clock, the camera's turn | game, notation, config |
 //! | [`config`] | `config.ini`, typed and range-checked | – |
 //! | [`assets`] | piece sets from TOML (`docs/piece-sets.md`), bitmaps, a font | config, geometry |
 //! | [`geometry`] | rays, spans, bounds, transforms, curves, and one file a shape | – |
@@ -31,8 +31,9 @@
 //!
 //! Where this differs from the first design: the camera's turn and lean are part of the frame, as an
 //! angle and a point about the board's middle, so that the timeline needs no geometry; its pose on a
-//! path is the settings' own type. `export` reads what scenes are made
-//! of, and so uses `assets` (bitmaps) and `config` (kinds of mapping and filter) too. Where it differs
+//! path is the settings' own type. What room pieces take, which decides how high they are lifted, is
+//! measured by the scene on its solids and told to the timeline ([`timeline::Bodies`]). `export` reads what
+//! scenes are made of, and so uses `assets` (bitmaps) and `config` (kinds of mapping and filter) too. Where it differs
 //! from the thesis: light loses a share at each surface of glass, where the thesis has full shadows;
 //! total internal reflection throws all back, whatever the material's shares; colours are cut to what
 //! can be shown when they are stored, not at each surface.
