@@ -55,7 +55,10 @@ impl<'a> GameCaptions<'a> {
             occasion: if says(settings.event) { wording::occasion(game) } else { Vec::new() },
             result: if tells_result { wording::result(game) } else { String::new() },
             ending: if card == Some(Card::Result) { wording::ending(game) } else { String::new() },
-            gauge: self.gauges.get(frame.ply).filter(|_| settings.eval).cloned(),
+            gauge: self.gauges.get(frame.ply).filter(|_| settings.eval).cloned().map(|gauge| {
+                // Beside a move that is under way it would be taken for that move's.
+                if is_moving { Gauge { label: String::new(), ..gauge } } else { gauge }
+            }),
             card,
         }
     }
@@ -261,7 +264,7 @@ mod tests {
     }
 
     #[test]
-    fn while_a_move_is_under_way_the_number_is_that_of_the_position_left() {
+    fn while_a_move_is_under_way_there_is_no_number() {
         let game = game("1. e4 {[%eval 0.2]} e5 *");
         let script = Script { animate: true, ..Script::default() };
         let timeline = Timeline::new(&game, 0, 2, &script).unwrap();
@@ -272,7 +275,7 @@ mod tests {
             .map(|(is_at_rest, gauge)| (is_at_rest, gauge.label))
             .collect();
         seen.dedup();
-        let expected = [(true, ""), (false, ""), (true, "+0.2"), (false, "+0.2"), (true, "")];
+        let expected = [(true, ""), (false, ""), (true, "+0.2"), (false, ""), (true, "")];
         assert_eq!(seen, expected.map(|(is_at_rest, label)| (is_at_rest, label.to_owned())));
     }
 

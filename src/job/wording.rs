@@ -67,7 +67,11 @@ pub fn result(game: &Game) -> String {
 
 /// How the game ended, if the board or the tag `Termination` says it.
 pub fn ending(game: &Game) -> String {
-    let by_rule = game.ending().filter(|_| game.is_whole()).map(|ending| match ending {
+    // A result that contradicts the board has another reason, which nobody tells.
+    let is_meant =
+        |ending: &Ending| (game.result == "1/2-1/2") != matches!(ending, Ending::Checkmate);
+    let by_rule = game.ending().filter(|_| game.is_whole()).filter(is_meant);
+    let by_rule = by_rule.map(|ending| match ending {
         Ending::Checkmate => "Checkmate",
         Ending::Stalemate => "Stalemate",
         Ending::InsufficientMaterial => "Neither side can mate",

@@ -36,10 +36,11 @@ pub fn remove_frames(
         let name = entry.file_name().to_string_lossy().into_owned();
         // What a link leads to is not ours.
         let kind = entry.file_type().map_err(failed)?;
-        if kind.is_dir() && part.is_none() && is_variation(&name) {
+        let manifest = entry.path().join(manifest_name(None));
+        if kind.is_dir() && part.is_none() && is_variation(&name) && manifest.is_file() {
             let folder = entry.path();
             remove_frames(&folder, None)?;
-            remove_if_there(&folder.join(manifest_name(None))).map_err(failed)?;
+            remove_if_there(&manifest).map_err(failed)?;
             // Somebody may keep other things in it.
             let _ = fs::remove_dir(&folder);
             continue;
