@@ -36,13 +36,8 @@ pub fn remove_frames(
         let name = entry.file_name().to_string_lossy().into_owned();
         // What a link leads to is not ours.
         let kind = entry.file_type().map_err(failed)?;
-        let manifest = entry.path().join(manifest_name(None));
-        if kind.is_dir() && part.is_none() && is_variation(&name) && manifest.is_file() {
-            let folder = entry.path();
-            remove_frames(&folder, None)?;
-            remove_if_there(&manifest).map_err(failed)?;
-            // Somebody may keep other things in it.
-            let _ = fs::remove_dir(&folder);
+        if kind.is_dir() && part.is_none() && is_variation(&name) {
+            remove_variation(&entry.path())?;
             continue;
         }
         let is_old = match (frame_index(&name), part) {
@@ -54,6 +49,27 @@ pub fn remove_frames(
             remove_if_there(&entry.path()).map_err(failed)?;
         }
     }
+    Ok(())
+}
+
+/// Removes what a variation's folder holds of ours; without a manifest it is another's, unless it is empty.
+fn remove_variation(folder: &Path) -> Result<(), OutputError> {
+    let failed = |error| OutputError { path: folder.to_owned(), error };
+    let manifest = folder.join(manifest_name(None));
+    if manifest.is_file() {
+        remove_frames(folder, None)?;
+        remove_if_there(&manifest).map_err(failed)?;
+    } else {
+        for entry in fs::read_dir(folder).map_err(failed)? {
+            let entry = entry.map_err(failed)?;
+            let is_nested = is_variation(&entry.file_name().to_string_lossy());
+            if is_nested && entry.file_type().map_err(failed)?.is_dir() {
+                remove_variation(&entry.path())?;
+            }
+        }
+    }
+    // Somebody may keep other things in it.
+    let _ = fs::remove_dir(folder);
     Ok(())
 }
 
