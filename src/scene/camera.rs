@@ -143,7 +143,7 @@ impl Camera {
     }
 
     /// The width that one of `across` equal parts of the picture's width stands for, per unit of
-    /// distance; in parallel projection as it is at [`FAR`], where such cameras are put.
+    /// distance; in parallel projection as it is at `FAR`, where such cameras are put.
     pub fn spread(&self, across: u32) -> f64 {
         let width = self.width() / f64::from(across);
         match self.projection {
