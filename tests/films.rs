@@ -1,5 +1,7 @@
 //! Films and variations as the command makes them.
 
+mod seen;
+
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -11,7 +13,7 @@ use lightsquare::assets::{Assets, SetName};
 use lightsquare::config::{Config, Orientation, ShowClock, VIEWS, View};
 use lightsquare::job::Showing;
 use lightsquare::notation::Placement;
-use lightsquare::scene::{Camera, Projection, Stage, TO_MOVER};
+use lightsquare::scene::{Stage, TO_MOVER};
 use lightsquare::timeline::{Dials, Frame, Gaze};
 use serde_json::Value;
 use tempfile::TempDir;
@@ -312,18 +314,6 @@ fn a_diagram_is_the_picture_that_the_game_has_of_the_position() {
     }
 }
 
-/// How far `point` is from the middle of a picture of the shape `aspect`, 1 at its edges.
-fn beyond(camera: &Camera, point: DVec3, aspect: f64) -> f64 {
-    let [right, up, forward] = camera.axes();
-    let to = point - camera.position();
-    let depth = match camera.projection() {
-        Projection::Perspective => to.dot(forward),
-        Projection::Parallel => 1.0,
-    };
-    let half = camera.width() / 2.0 * depth;
-    (to.dot(right) / half).abs().max((to.dot(up) / half * aspect).abs())
-}
-
 #[test]
 fn pictures_hold_the_clock_all_the_way_round() {
     let dials = Dials::Times { left: [Some(60), Some(59)], running: None };
@@ -358,7 +348,7 @@ fn pictures_hold_the_clock_all_the_way_round() {
                             let gaze = Gaze { orbit, ..Gaze::default() };
                             let camera = stage.scene(&Frame { gaze, ..ticking.clone() }).camera;
                             let aspect = f64::from(width) / f64::from(height);
-                            let most = corners.iter().map(|c| beyond(&camera, *c, aspect));
+                            let most = corners.iter().map(|c| seen::beyond(&camera, *c, aspect));
                             let most = most.fold(0.0, f64::max);
                             let what = format!("{name}, {orientation:?}, {width}, {orbit}");
                             assert!(most < 1.0, "{what}: {most}");

@@ -1,5 +1,7 @@
 //! Moves under way: who goes where, and that nothing passes through anything.
 
+mod seen;
+
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -12,7 +14,7 @@ use lightsquare::assets::{Assets, SetName};
 use lightsquare::config::{Config, Look, VIEWS};
 use lightsquare::game::{Game, Scanner, Source};
 use lightsquare::notation::{Color, Role, Square};
-use lightsquare::scene::{Camera, Projection, Reach, Stage, bodies};
+use lightsquare::scene::{Reach, Stage, bodies};
 use lightsquare::timeline::{Bodies, Envelope, Film, Frame, Mover, SLICE, Script, Spot, Timeline};
 
 fn set(name: SetName) -> Bodies {
@@ -391,18 +393,6 @@ fn envelopes_hold_their_pieces() {
     }
 }
 
-/// How far `point` is from the middle of a picture of 3:2, 1 at its edges.
-fn beyond(camera: &Camera, point: DVec3) -> f64 {
-    let [right, up, forward] = camera.axes();
-    let to = point - camera.position();
-    let depth = match camera.projection() {
-        Projection::Perspective => to.dot(forward),
-        Projection::Parallel => 1.0,
-    };
-    let half = camera.width() / 2.0 * depth;
-    (to.dot(right) / half).abs().max((to.dot(up) / half * 1.5).abs())
-}
-
 #[test]
 fn pictures_hold_all_that_moves_in_any_sample_game() {
     let views = ["white", "black", "top", "side", "player", "mover"];
@@ -431,7 +421,7 @@ fn pictures_hold_all_that_moves_in_any_sample_game() {
                     let top = height + bodies.of(mover.piece.role).height();
                     let top = DVec3::new(file, top, rank) * 4.0;
                     for (name, camera) in &cameras {
-                        let beyond = beyond(camera, top);
+                        let beyond = seen::beyond(camera, top, 1.5);
                         let what = format!("{name}, {}, frame {index}: {mover:?}", path.display());
                         assert!(beyond < 1.0, "{what}: {beyond}");
                     }
