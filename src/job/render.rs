@@ -55,7 +55,8 @@ pub struct Summary {
 ///
 /// All input is read before the first picture, and nothing is written if any of it cannot be read
 /// at all. Games that can be played only in part are rendered in part. Numbered pictures of an
-/// earlier run in a game's folder are removed.
+/// earlier run in a game's folder are removed, and its variations; where only some frames are wanted, only
+/// those are.
 ///
 /// # Errors
 /// Input that cannot be read, output that cannot be written, or a selection without games.

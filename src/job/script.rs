@@ -41,8 +41,9 @@ impl Showing {
     /// What pictures have to hold.
     pub fn reach(&self, config: &Config) -> Reach {
         let mover = if config.camera.view == View::Mover { TO_MOVER } else { 0.0 };
-        // So many moves that it is a whole turn, if it turns with each.
-        let orbit = if self.orbits_each_move { self.orbit * 360.0 } else { self.orbit };
+        // With each move it may come round as often as it likes.
+        let goes_round = self.orbits_each_move && self.orbit != 0.0;
+        let orbit = if goes_round { 360_f64.copysign(self.orbit) } else { self.orbit };
         let turns = [0.0, orbit, mover, orbit + mover];
         Reach {
             moves: self.animate,

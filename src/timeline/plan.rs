@@ -7,8 +7,8 @@
 use super::bodies::{Bodies, Envelope};
 use super::flight::{Flight, ease};
 use super::motion::{Motion, Step};
-use super::pieces::{Mover, Position, Spot};
-use super::tray::Tray;
+use super::pieces::{Mover, Position, Spot, Taken};
+use super::tray;
 use crate::notation::{Piece, Placement, Square};
 
 /// How far moving pieces keep from others at least, in squares, unless they stand nearer at rest.
@@ -150,12 +150,10 @@ fn go<'a>(step: &Step, before: &Position, bodies: &'a Bodies) -> Option<Task<'a>
 /// The task of a captured piece.
 fn leave<'a>(square: Square, before: &Position, bodies: &'a Bodies) -> Option<Task<'a>> {
     let piece = before.placement.get(square)?;
-    let mut tray = Tray::new(bodies, piece.color);
-    for taken in before.taken.iter().filter(|taken| taken.piece.color == piece.color) {
-        tray.next(taken.piece.role);
-    }
-    let flight = level(Spot::on(square), tray.next(piece.role));
     let identity = before.identities.get(square);
+    let taken = [&before.taken[..], &[Taken { piece, identity }]].concat();
+    let (_, place) = tray::places(&taken, bodies).last()?;
+    let flight = level(Spot::on(square), place);
     let leg = Leg { from: square, piece, identity, flight, becomes: None };
     Some(Task { leg, envelope: bodies.of(piece.role), manner: LEAVE })
 }
@@ -177,7 +175,7 @@ impl<'a> Field<'a> {
         let stays = |square: &Square| tasks.iter().all(|task| task.leg.from != *square);
         let standing = before.placement.iter().filter(|(square, _)| stays(square));
         let standing = standing.map(|(square, piece)| (bodies.of(piece.role), Spot::on(square)));
-        let taken = super::tray::places(&before.taken, bodies);
+        let taken = tray::places(&before.taken, bodies);
         let taken = taken.map(|(taken, spot)| (bodies.of(taken.piece.role), spot));
         Field {
             standing: standing.chain(taken).collect(),

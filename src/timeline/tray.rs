@@ -35,7 +35,7 @@ const ARMY: [Role; 15] = [
 ];
 
 /// The places of one player's captured pieces, one after the other.
-pub struct Tray<'a> {
+struct Tray<'a> {
     bodies: &'a Bodies,
     /// How many there are.
     columns: u32,
@@ -48,7 +48,7 @@ pub struct Tray<'a> {
 
 impl Tray<'_> {
     /// The empty tray of the pieces of `color`.
-    pub fn new(bodies: &Bodies, color: Color) -> Tray<'_> {
+    fn new(bodies: &Bodies, color: Color) -> Tray<'_> {
         Tray { columns: columns(bodies), ..Tray::endless(bodies, color) }
     }
 
@@ -58,7 +58,7 @@ impl Tray<'_> {
     }
 
     /// The place of the next piece.
-    pub fn next(&mut self, role: Role) -> Spot {
+    fn next(&mut self, role: Role) -> Spot {
         let radius = self.bodies.of(role).radius();
         let length = 2.0 * self.bodies.edge + BEYOND;
         // What comes behind all that a player has at first, promoted pieces, makes the last column longer.
