@@ -1,0 +1,142 @@
+//! Lanes in the registers of AVX2.
+
+use std::arch::x86_64::*;
+
+use super::Simd;
+
+/// Named by [`super::dispatch`] where the processor has AVX2.
+#[derive(Clone, Copy)]
+pub struct Avx2;
+
+/// Functions of one intrinsic or few. SAFETY: `Avx2` is a parameter only where AVX2 was found.
+macro_rules! by {
+    ($($name:ident($($arg:ident: $type:ty),*) -> $result:ty = $body:expr;)*) => {$(
+        #[inline(always)]
+        fn $name($($arg: $type),*) -> $result {
+            // SAFETY: see above.
+            #[allow(unused_unsafe)]
+            unsafe { $body }
+        }
+    )*};
+}
+
+impl Simd for Avx2 {
+    type F = __m256;
+    type U = __m256i;
+    type M = __m256;
+
+    #[inline(always)]
+    fn run<R>(body: impl FnOnce() -> R) -> R {
+        #[target_feature(enable = "avx2")]
+        unsafe fn with_avx2<R>(body: impl FnOnce() -> R) -> R {
+            body()
+        }
+        // SAFETY: `Avx2` is a parameter only where AVX2 was found.
+        unsafe { with_avx2(body) }
+    }
+
+    by! {
+        f_splat(x: f32) -> __m256 = _mm256_set1_ps(x);
+        f_load(x: &[f32; 8]) -> __m256 = _mm256_loadu_ps(x.as_ptr());
+        f_add(a: __m256, b: __m256) -> __m256 = _mm256_add_ps(a, b);
+        f_sub(a: __m256, b: __m256) -> __m256 = _mm256_sub_ps(a, b);
+        f_mul(a: __m256, b: __m256) -> __m256 = _mm256_mul_ps(a, b);
+        f_div(a: __m256, b: __m256) -> __m256 = _mm256_div_ps(a, b);
+        f_min(a: __m256, b: __m256) -> __m256 = _mm256_min_ps(a, b);
+        f_max(a: __m256, b: __m256) -> __m256 = _mm256_max_ps(a, b);
+        f_sqrt(a: __m256) -> __m256 = _mm256_sqrt_ps(a);
+        f_floor(a: __m256) -> __m256 = _mm256_floor_ps(a);
+        f_lt(a: __m256, b: __m256) -> __m256 = _mm256_cmp_ps::<_CMP_LT_OQ>(a, b);
+        f_le(a: __m256, b: __m256) -> __m256 = _mm256_cmp_ps::<_CMP_LE_OQ>(a, b);
+        f_eq(a: __m256, b: __m256) -> __m256 = _mm256_cmp_ps::<_CMP_EQ_OQ>(a, b);
+        f_select(mask: __m256, yes: __m256, no: __m256) -> __m256 = _mm256_blendv_ps(no, yes, mask);
+        f_bits(a: __m256) -> __m256i = _mm256_castps_si256(a);
+        f_to_i32(a: __m256) -> __m256i = _mm256_cvttps_epi32(a);
+        u_splat(x: u32) -> __m256i = _mm256_set1_epi32(x as i32);
+        u_load(x: &[u32; 8]) -> __m256i = _mm256_loadu_si256(x.as_ptr().cast());
+        u_add(a: __m256i, b: __m256i) -> __m256i = _mm256_add_epi32(a, b);
+        u_sub(a: __m256i, b: __m256i) -> __m256i = _mm256_sub_epi32(a, b);
+        u_mul(a: __m256i, b: __m256i) -> __m256i = _mm256_mullo_epi32(a, b);
+        u_and(a: __m256i, b: __m256i) -> __m256i = _mm256_and_si256(a, b);
+        u_or(a: __m256i, b: __m256i) -> __m256i = _mm256_or_si256(a, b);
+        u_xor(a: __m256i, b: __m256i) -> __m256i = _mm256_xor_si256(a, b);
+        u_shl(a: __m256i, by: u32) -> __m256i = _mm256_sll_epi32(a, _mm_cvtsi32_si128(by as i32));
+        u_shr(a: __m256i, by: u32) -> __m256i = _mm256_srl_epi32(a, _mm_cvtsi32_si128(by as i32));
+        u_shr_signed(a: __m256i, by: u32) -> __m256i =
+            _mm256_sra_epi32(a, _mm_cvtsi32_si128(by as i32));
+        u_shl_each(a: __m256i, by: __m256i) -> __m256i = _mm256_sllv_epi32(a, by);
+        u_shr_each(a: __m256i, by: __m256i) -> __m256i = _mm256_srlv_epi32(a, by);
+        u_eq(a: __m256i, b: __m256i) -> __m256 = _mm256_castsi256_ps(_mm256_cmpeq_epi32(a, b));
+        u_as_floats(a: __m256i) -> __m256 = _mm256_castsi256_ps(a);
+        i32_to_f(a: __m256i) -> __m256 = _mm256_cvtepi32_ps(a);
+        m_and(a: __m256, b: __m256) -> __m256 = _mm256_and_ps(a, b);
+        m_or(a: __m256, b: __m256) -> __m256 = _mm256_or_ps(a, b);
+        m_and_not(a: __m256, b: __m256) -> __m256 = _mm256_andnot_ps(b, a);
+        m_bits(a: __m256) -> u8 = _mm256_movemask_ps(a) as u8;
+    }
+
+    #[inline(always)]
+    fn f_store(x: __m256) -> [f32; 8] {
+        let mut stored = [0.0; 8];
+        // SAFETY: AVX2 was found, and there is room for eight.
+        unsafe { _mm256_storeu_ps(stored.as_mut_ptr(), x) };
+        stored
+    }
+
+    #[inline(always)]
+    fn u_store(x: __m256i) -> [u32; 8] {
+        let mut stored = [0; 8];
+        // SAFETY: AVX2 was found, and there is room for eight.
+        unsafe { _mm256_storeu_si256(stored.as_mut_ptr().cast(), x) };
+        stored
+    }
+
+    #[inline(always)]
+    fn f_gather(table: &[f32], index: __m256i) -> __m256 {
+        let index = checked(index, table.len());
+        // SAFETY: AVX2 was found, and all indices are within the table.
+        unsafe { _mm256_i32gather_ps::<4>(table.as_ptr(), index) }
+    }
+
+    #[inline(always)]
+    fn u_gather(table: &[u32], index: __m256i) -> __m256i {
+        let index = checked(index, table.len());
+        // SAFETY: AVX2 was found, and all indices are within the table.
+        unsafe { _mm256_i32gather_epi32::<4>(table.as_ptr().cast(), index) }
+    }
+
+    #[inline(always)]
+    fn u_mul_high(a: __m256i, b: __m256i) -> __m256i {
+        // SAFETY: AVX2 was found.
+        unsafe {
+            let even = _mm256_srli_epi64::<32>(_mm256_mul_epu32(a, b));
+            let odd = _mm256_mul_epu32(_mm256_srli_epi64::<32>(a), _mm256_srli_epi64::<32>(b));
+            _mm256_blend_epi32::<0b1010_1010>(even, odd)
+        }
+    }
+
+    #[inline(always)]
+    fn u_select(mask: __m256, yes: __m256i, no: __m256i) -> __m256i {
+        // SAFETY: AVX2 was found.
+        unsafe { _mm256_blendv_epi8(no, yes, _mm256_castps_si256(mask)) }
+    }
+
+    #[inline(always)]
+    fn m_from_bits(bits: u8) -> __m256 {
+        // SAFETY: AVX2 was found.
+        unsafe {
+            let each = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+            let set = _mm256_and_si256(_mm256_set1_epi32(i32::from(bits)), each);
+            _mm256_castsi256_ps(_mm256_cmpeq_epi32(set, each))
+        }
+    }
+}
+
+/// Indices that are within a table of `length` entries: others become its last.
+#[inline(always)]
+fn checked(index: __m256i, length: usize) -> __m256i {
+    assert!(length > 0, "nothing can be taken from an empty table");
+    let last = (length - 1).min(i32::MAX as usize) as i32;
+    // SAFETY: AVX2 was found.
+    unsafe { _mm256_min_epu32(index, _mm256_set1_epi32(last)) }
+}
