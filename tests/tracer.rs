@@ -61,6 +61,7 @@ fn from_above(objects: Vec<Object>) -> Scene {
             z_rot: 0.0,
         }),
         room: None,
+        cells: None,
         background: Some(DVec3::new(0.0, 0.0, 0.4)),
         max_depth: 5,
         min_weight: 0.0,

@@ -34,6 +34,11 @@ impl Placed {
         &*self.solid
     }
 
+    /// The same, shared by all that have it.
+    pub fn shared(&self) -> &Arc<dyn Solid> {
+        &self.solid
+    }
+
     /// The way from the solid's own space to the space round it.
     pub fn transform(&self) -> DAffine3 {
         self.transform

@@ -343,6 +343,12 @@ impl<S: Simd> U32x8<S> {
         Mask8(S::u_eq(self.0, other.0))
     }
 
+    /// Of numbers less than 2³¹ apart, whether this one is less.
+    #[inline(always)]
+    pub fn below(self, other: U32x8<S>) -> Mask8<S> {
+        ((self - other) >> 31).eq(U32x8::splat(1))
+    }
+
     /// The same bits as floating-point numbers.
     #[inline(always)]
     pub fn as_floats(self) -> F32x8<S> {
@@ -371,6 +377,11 @@ impl<S: Simd> Mask8<S> {
     #[inline(always)]
     pub fn no_lanes() -> Mask8<S> {
         Mask8(S::m_from_bits(0))
+    }
+
+    #[inline(always)]
+    pub fn splat(answer: bool) -> Mask8<S> {
+        Mask8::from_bits(if answer { u8::MAX } else { 0 })
     }
 
     /// Lane 0 is the lowest bit.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::board::board;
 use super::bodies::bodies;
@@ -13,7 +13,7 @@ use super::measures::{MIDDLE, SQUARE};
 use super::models::model;
 use super::noise::hash;
 use super::paint::Paints;
-use super::{Camera, Object, Reach, Readers, Rgb, Room, Scene, Side, Surface, view};
+use super::{Camera, Cells, Object, Reach, Readers, Rgb, Room, Scene, Side, Surface, view};
 use crate::assets::Assets;
 use crate::config::{self, Config, Light, Shading, View};
 use crate::geometry::Csg;
@@ -125,6 +125,7 @@ impl Stage {
         fixed.extend(clock);
         Scene {
             objects: fixed.into_iter().chain(standing).chain(loose).collect(),
+            cells: Some(Cells { origin: DVec2::ZERO, side: SQUARE }),
             lights: self.lights.clone(),
             camera: self.camera(&frame.gaze),
             background: self.background,

@@ -1,7 +1,5 @@
 //! Where in a pixel rays go through.
 
-use super::canvas::Pixel;
-
 /// How many rays a pixel gets, and where.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Antialiasing {
@@ -18,17 +16,4 @@ pub enum Antialiasing {
         /// on it, in its normal eight times as far; or the error, of white.
         threshold: f32,
     },
-}
-
-/// The mean of `sample(dx, dy)` over the middles of `side` × `side` parts of a pixel, each place 0
-/// to 1 from its top left.
-pub fn mean(side: u32, mut sample: impl FnMut(f64, f64) -> Pixel) -> Pixel {
-    let place = |index: u32| (f64::from(index) + 0.5) / f64::from(side);
-    let mut sum = Pixel::default();
-    for row in 0..side {
-        for column in 0..side {
-            sum = sum + sample(place(column), place(row));
-        }
-    }
-    sum / f64::from(side * side)
 }

@@ -1,18 +1,18 @@
 //! The studio's pictures: many samples a pixel, and more where they disagree.
 
-use image::DynamicImage;
+use glam::{DVec3, Vec3};
 
-use super::canvas::{Canvas, Pixel};
-use super::sequence::Sequence;
-use super::studio::{Glimpse, Studio};
+use super::eye::Eye;
+use super::pixel::{Pixel, Stored};
+use super::plane::{Plane, Spot};
 use super::{Antialiasing, RayCounts, tone};
-use crate::scene::{Rgb, Room, Scene, linear_light};
+use crate::scene::{Rgb, Scene, linear_light};
 
-/// Where in the pixel a sample goes through.
-const PLACE: u32 = 0;
+/// What numbers are for: where in the pixel a sample goes through.
+pub const PLACE: u32 = 0;
 
 /// Where in the lens it does.
-const LENS: u32 = 1;
+pub const LENS: u32 = 1;
 
 /// No fewer samples are believed.
 const FEWEST: u32 = 4;
@@ -25,62 +25,51 @@ const SAME: f64 = 0.15;
 const CONTRAST: f64 = 0.08;
 
 /// One bright sample among dark ones counts no more than this: fine highlights do not flicker.
-const BRIGHTEST: f64 = 2.0;
+const BRIGHTEST: f32 = 2.0;
 
-/// Traces `scene` as [`super::render`] does, in the light of `room`. Of a grid the number of rays
-/// alone counts; adaptive, a pixel begins with a quarter of them (and stops before where the first
-/// are all the same), and goes on while the error of its mean seems greater than the threshold.
-pub fn render(
-    scene: &Scene,
-    room: &Room,
-    width: u32,
-    height: u32,
-    mode: Antialiasing,
-) -> (DynamicImage, RayCounts) {
-    let (first, most, error) = match mode {
-        Antialiasing::None => (1, 1, -1.0),
-        Antialiasing::Grid(side) => (side * side, side * side, -1.0),
-        Antialiasing::Adaptive { rays, threshold } => {
-            // Samples are most even in powers of two.
-            let quarter = (rays * rays / 4).max(1);
-            (1 << quarter.ilog2(), rays * rays, f64::from(threshold))
-        }
-    };
-    let few = if scene.camera.has_lens() { first } else { first / 4 };
-    let exposure = Exposure {
-        few: few.max(FEWEST).min(most),
-        studio: Studio::new(scene, room),
-        scene,
-        size: [width, height],
-        first,
-        most,
-        error,
-        behind: scene.background.map(|color| shown(linear_light(color))),
-    };
-    let mut picture = Canvas::new(width, height, scene.background.is_none());
-    let counts = exposure.take(&mut picture);
-    (picture.into_picture(), counts)
+/// A sample of a pixel.
+#[derive(Clone, Copy, Debug)]
+pub struct Sample {
+    pub spot: Spot,
+    pub index: u32,
+    /// Whether it goes through the pixel's middle, being the only one.
+    pub is_centered: bool,
 }
 
-struct Exposure<'a> {
-    studio: Studio<'a>,
-    scene: &'a Scene,
-    size: [u32; 2],
-    /// Samples of a pixel to begin with, of one that is not as simple as it seems, and at most.
+/// What a single ray from the camera brings back.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Glimpse {
+    /// Linear, and no brighter than one sample may be.
+    pub light: Vec3,
+    /// How much of the background it hides, 0 to 1.
+    pub cover: f32,
+}
+
+impl Glimpse {
+    pub fn new(light: Vec3, cover: f32) -> Glimpse {
+        Glimpse { light: light.min(Vec3::splat(BRIGHTEST)), cover }
+    }
+}
+
+/// How many samples pixels get.
+pub struct Exposure {
+    /// Of a pixel to begin with, of one that is not as simple as it seems, and at most.
     few: u32,
     first: u32,
     most: u32,
     /// The error of a pixel's mean that is small enough, of what can be shown; negative where none is.
     error: f64,
+    has_lens: bool,
+    background: Option<Rgb>,
     /// How bright the background looks, if there is one.
     behind: Option<f64>,
 }
 
 /// The samples of a pixel so far.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy, Debug, Default)]
 struct Sum {
     count: u32,
-    light: Rgb,
+    light: DVec3,
     cover: f64,
     /// Of how bright samples look, and of its square.
     shown: f64,
@@ -90,81 +79,152 @@ struct Sum {
 }
 
 /// How bright light looks, 0 to 1: a square root is near enough.
-fn shown(light: Rgb) -> f64 {
-    light.dot(Rgb::splat(1.0 / 3.0)).clamp(0.0, 1.0).sqrt()
+fn shown(light: DVec3) -> f64 {
+    light.dot(DVec3::splat(1.0 / 3.0)).clamp(0.0, 1.0).sqrt()
 }
 
-impl Exposure<'_> {
-    /// Paints the picture: first a few samples of each pixel, then more of those that need them.
-    fn take(&self, picture: &mut Canvas) -> RayCounts {
-        let look = |x: usize, y: usize, counts: &mut RayCounts| {
-            let mut sum = Sum::default();
-            self.add(&mut sum, self.few, x as u32, y as u32, counts);
-            sum
-        };
-        picture.paint_twice(look, |x, y, looks, counts| {
-            let mut sum = *looks.at(x, y);
-            let shown = sum.shown();
-            let differs = looks.round(x, y).any(|there| (there.shown() - shown).abs() > CONTRAST);
-            self.refine(&mut sum, x as u32, y as u32, differs, counts);
-            self.developed(&sum)
-        })
-    }
-
-    /// Adds samples until their error is small enough. If the first few are all the same, and about
-    /// those of the pixels beside, they are believed.
-    fn refine(&self, sum: &mut Sum, x: u32, y: u32, differs: bool, counts: &mut RayCounts) {
-        while sum.count < self.most {
-            let small_enough = match (sum.count < self.first, self.scene.camera.has_lens()) {
-                (true, _) if differs => -1.0,
-                (true, _) => SAME * self.error,
-                // What a lens blurs is made of few bright samples among many.
-                (false, true) => self.error / 2.0,
-                (false, false) => self.error,
-            };
-            if sum.error() <= small_enough {
-                return;
+impl Exposure {
+    /// Of a grid the number of rays alone counts; adaptive, a pixel begins with a quarter of them (and
+    /// stops before where the first are all the same), and goes on while the error of its mean seems
+    /// greater than the threshold.
+    pub fn new(scene: &Scene, mode: Antialiasing) -> Exposure {
+        let (first, most, error) = match mode {
+            Antialiasing::None => (1, 1, -1.0),
+            Antialiasing::Grid(side) => (side * side, side * side, -1.0),
+            Antialiasing::Adaptive { rays, threshold } => {
+                // Samples are most even in powers of two.
+                let quarter = (rays * rays / 4).max(1);
+                (1 << quarter.ilog2(), rays * rays, f64::from(threshold))
             }
-            self.add(sum, (2 * sum.count).min(self.most), x, y, counts);
+        };
+        let has_lens = scene.camera.has_lens();
+        let few = if has_lens { first } else { first / 4 };
+        Exposure {
+            few: few.max(FEWEST).min(most),
+            first,
+            most,
+            error,
+            has_lens,
+            background: scene.background,
+            behind: scene.background.map(|color| shown(linear_light(color))),
         }
     }
 
-    /// Adds samples up to a number of them.
-    fn add(&self, sum: &mut Sum, wanted: u32, x: u32, y: u32, counts: &mut RayCounts) {
-        for index in sum.count..wanted {
-            sum.add(self.sample(x, y, index, counts), self.behind);
+    /// How many samples side by side make a pixel's width, as far as textures are concerned.
+    pub fn across(&self) -> f64 {
+        f64::from(self.first).sqrt().min(4.0)
+    }
+
+    /// Paints a picture through `eye`: first a few samples of each pixel, then more of those that need
+    /// them.
+    pub fn take(
+        &self,
+        eye: &impl Eye<Sample = Sample, Seen = Glimpse>,
+        [width, height]: [u32; 2],
+    ) -> (Plane<Stored>, RayCounts) {
+        let mut looks = Plane::new(width, height, Sum::default());
+        let first = looks.fill(
+            |_| true,
+            |spots, made| {
+                made.resize(spots.len(), Sum::default());
+                let some: Vec<usize> = (0..spots.len()).collect();
+                self.add(eye, spots, &some, |_| self.few, made)
+            },
+        );
+        let mut picture = Plane::new(width, height, Stored::default());
+        let more = picture.fill(
+            |_| true,
+            |spots, made| {
+                let mut sums: Vec<Sum> = spots.iter().map(|spot| looks.at(*spot)).collect();
+                let counts = self.refine(eye, spots, &looks, &mut sums);
+                made.extend(sums.iter().map(|sum| self.developed(sum).stored()));
+                counts
+            },
+        );
+        (picture, first + more)
+    }
+
+    /// Adds samples to pixels until their errors are small enough. If the first few of one are all the same,
+    /// and about those of the pixels beside, they are believed.
+    fn refine(
+        &self,
+        eye: &impl Eye<Sample = Sample, Seen = Glimpse>,
+        spots: &[Spot],
+        looks: &Plane<Sum>,
+        sums: &mut [Sum],
+    ) -> RayCounts {
+        let mut counts = RayCounts::default();
+        let differs = |index: usize| {
+            let shown = sums[index].shown();
+            looks.round(spots[index]).any(|there| (there.shown() - shown).abs() > CONTRAST)
+        };
+        let differs: Vec<bool> = (0..spots.len()).map(differs).collect();
+        loop {
+            let wants = |index: &usize| self.wants_more(&sums[*index], differs[*index]);
+            let some: Vec<usize> = (0..spots.len()).filter(wants).collect();
+            if some.is_empty() {
+                return counts;
+            }
+            let wanted = |sum: &Sum| (2 * sum.count).min(self.most);
+            counts = counts + self.add(eye, spots, &some, wanted, sums);
         }
     }
 
-    fn sample(&self, x: u32, y: u32, index: u32, counts: &mut RayCounts) -> Glimpse {
-        let numbers = Sequence::new(x, y, index);
-        let (dx, dy) = if self.most == 1 { (0.5, 0.5) } else { numbers.pair(PLACE) };
-        let [width, height] = self.size;
-        let camera = &self.scene.camera;
-        let ray = camera.ray(f64::from(x) + dx, f64::from(y) + dy, width, height);
-        let ray = camera.ray_through_lens(ray, || numbers.pair(LENS));
-        let across = f64::from(self.first).sqrt().min(4.0);
-        let spread = camera.spread(width) / across;
-        let Glimpse { light, cover } = self.studio.trace(ray, spread, &numbers, counts);
-        Glimpse { light: light.min(Rgb::splat(BRIGHTEST)), cover }
+    fn wants_more(&self, sum: &Sum, differs: bool) -> bool {
+        let small_enough = match (sum.count < self.first, self.has_lens) {
+            (true, _) if differs => -1.0,
+            (true, _) => SAME * self.error,
+            // What a lens blurs is made of few bright samples among many.
+            (false, true) => self.error / 2.0,
+            (false, false) => self.error,
+        };
+        sum.count < self.most && sum.error() > small_enough
+    }
+
+    /// Adds samples to some of the pixels, up to the number that each of them `wanted`.
+    fn add(
+        &self,
+        eye: &impl Eye<Sample = Sample, Seen = Glimpse>,
+        spots: &[Spot],
+        some: &[usize],
+        wanted: impl Fn(&Sum) -> u32,
+        sums: &mut [Sum],
+    ) -> RayCounts {
+        let is_centered = self.most == 1;
+        let samples: Vec<Sample> = some
+            .iter()
+            .flat_map(|pixel| {
+                let (spot, sum) = (spots[*pixel], &sums[*pixel]);
+                (sum.count..wanted(sum)).map(move |index| Sample { spot, index, is_centered })
+            })
+            .collect();
+        let mut seen = Vec::with_capacity(samples.len());
+        let counts = eye.see(&samples, &mut seen);
+        let mut seen = seen.into_iter();
+        for pixel in some {
+            let sum = &mut sums[*pixel];
+            let more = wanted(sum) - sum.count;
+            for glimpse in seen.by_ref().take(more as usize) {
+                sum.add(glimpse, self.behind);
+            }
+        }
+        counts
     }
 
     /// What the samples show: their light through the tone curve, over the background.
     fn developed(&self, sum: &Sum) -> Pixel {
         let cover = sum.cover / f64::from(sum.count);
-        if cover == 0.0 {
-            return self.over_background(Pixel::default());
-        }
-        let color = tone::stored(tone::neutral(sum.light / sum.cover));
-        self.over_background(Pixel { color: color * cover, cover })
-    }
-
-    fn over_background(&self, pixel: Pixel) -> Pixel {
-        match self.scene.background {
+        let color = if cover == 0.0 {
+            Rgb::ZERO
+        } else {
+            tone::stored(tone::neutral(sum.light / sum.cover)) * cover
+        };
+        match self.background {
             Some(background) => {
-                Pixel { color: pixel.color + background * (1.0 - pixel.cover), cover: 1.0 }
+                let color = color + background * (1.0 - cover);
+                Pixel { color: color.as_vec3(), cover: 1.0 }
             }
-            None => pixel,
+            None => Pixel { color: color.as_vec3(), cover: cover as f32 },
         }
     }
 }
@@ -172,6 +232,7 @@ impl Exposure<'_> {
 impl Sum {
     /// Adds a sample, before a background that looks as bright as `behind`.
     fn add(&mut self, Glimpse { light, cover }: Glimpse, behind: Option<f64>) {
+        let (light, cover) = (light.as_dvec3(), f64::from(cover));
         self.count += 1;
         self.light += light * cover;
         self.cover += cover;

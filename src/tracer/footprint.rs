@@ -1,15 +1,15 @@
 //! What a pixel saw, so that it can be compared with its neighbours.
 
-use glam::{DVec3, Vec3};
+use glam::Vec3;
 
-use crate::scene::Rgb;
+use crate::lanes::{F32x8, Mask8, Simd, U32x8, Vec3x8};
 
 /// The surfaces that a ray from the camera met, in mirrors and through glass too; each surface
 /// counts by its share of the pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Footprint {
-    /// Which objects were met, in which order.
-    objects: u64,
+    /// Which bodies were met, in which order.
+    bodies: u32,
     normal: Vec3,
     /// Of the texture.
     color: Vec3,
@@ -20,37 +20,85 @@ pub struct Footprint {
 /// How much more normals may differ than colours: what they do to the light is compared with it.
 const NORMAL_SCALE: f32 = 8.0;
 
+/// FNV's prime.
+const PRIME: u32 = 0x0100_0193;
+
 impl Footprint {
-    pub fn meet_nothing(&mut self) {
-        self.meet_object(0);
+    /// What was met, in this order, and the sums over it.
+    pub fn new(met: &[Option<usize>], normal: Vec3, color: Vec3, light: Vec3) -> Footprint {
+        let number = |met: &Option<usize>| met.map_or(0, |body| body as u32 + 1);
+        let bodies = met.iter().fold(0, |bodies, met| step(bodies, number(met)));
+        Footprint { bodies, normal, color, light }
     }
 
-    pub fn meet(&mut self, weight: f64, object: usize, normal: DVec3, color: Rgb, light: Rgb) {
-        self.meet_object(object as u64 + 1);
-        self.normal += (normal * weight).as_vec3();
-        self.color += (color * weight).as_vec3();
-        self.light += (light * weight).as_vec3();
-    }
-
-    /// Whether the ray from the camera met nothing at all.
-    pub fn is_of_nothing(&self) -> bool {
-        let mut nothing = Footprint::default();
-        nothing.meet_nothing();
-        *self == nothing
-    }
-
-    fn meet_object(&mut self, object: u64) {
-        // Steps of a hash: FNV's, by whole numbers.
-        self.objects = (self.objects ^ object.wrapping_add(1)).wrapping_mul(0x0000_0100_0000_01B3);
-    }
-
-    /// Whether two pixels saw different things: other objects, or the same ones with normals,
+    /// Whether two pixels saw different things: other bodies, or the same ones with normals,
     /// colours or light further apart than `threshold` allows.
     pub fn differs(&self, other: &Footprint, threshold: f32) -> bool {
         let apart = |a: Vec3, b: Vec3| (a - b).abs().max_element();
-        self.objects != other.objects
+        self.bodies != other.bodies
             || apart(self.normal, other.normal) > NORMAL_SCALE * threshold
             || apart(self.color, other.color) > threshold
             || apart(self.light, other.light) > threshold
+    }
+}
+
+/// A step of a hash: FNV's, by whole numbers.
+fn step(bodies: u32, number: u32) -> u32 {
+    (bodies ^ (number + 1)).wrapping_mul(PRIME)
+}
+
+/// The footprints of a packet.
+pub struct Footprints<S: Simd> {
+    bodies: U32x8<S>,
+    normal: Vec3x8<S>,
+    color: Vec3x8<S>,
+    light: Vec3x8<S>,
+}
+
+impl<S: Simd> Footprints<S> {
+    #[inline(always)]
+    pub fn new() -> Footprints<S> {
+        let zero = Vec3x8::zero();
+        Footprints { bodies: U32x8::splat(0), normal: zero, color: zero, light: zero }
+    }
+
+    #[inline(always)]
+    pub fn meet_nothing(&mut self, lanes: Mask8<S>) {
+        self.meet_body(lanes, U32x8::splat(0));
+    }
+
+    #[inline(always)]
+    pub fn meet(
+        &mut self,
+        lanes: Mask8<S>,
+        weight: F32x8<S>,
+        body: U32x8<S>,
+        normal: Vec3x8<S>,
+        color: Vec3x8<S>,
+        light: Vec3x8<S>,
+    ) {
+        self.meet_body(lanes, body + U32x8::splat(1));
+        let weight = lanes.keep(weight);
+        self.normal += normal * weight;
+        self.color += color * weight;
+        self.light += light * weight;
+    }
+
+    #[inline(always)]
+    pub fn store(&self) -> [Footprint; 8] {
+        let bodies = self.bodies.store();
+        let (normal, color, light) = (self.normal.store(), self.color.store(), self.light.store());
+        std::array::from_fn(|lane| Footprint {
+            bodies: bodies[lane],
+            normal: normal[lane],
+            color: color[lane],
+            light: light[lane],
+        })
+    }
+
+    #[inline(always)]
+    fn meet_body(&mut self, lanes: Mask8<S>, body: U32x8<S>) {
+        let met = (self.bodies ^ (body + U32x8::splat(1))) * U32x8::splat(PRIME);
+        self.bodies = lanes.select_words(met, self.bodies);
     }
 }

@@ -1,18 +1,24 @@
 //! From a scene to a picture.
 //!
 //! What a pixel becomes depends on the scene and on the pixel's place alone, so a picture is the
-//! same for any number of threads. The arithmetic is scalar f64: the yardstick for quicker paths.
+//! same for any number of threads. Rays go in packets of eight, in f32 ([`crate::packet`]); `oracle` does
+//! the same one ray at a time in f64, for tests.
 
 mod antialiasing;
-mod canvas;
+mod cells;
 mod exposure;
+mod eye;
 mod footprint;
-mod hierarchy;
+mod materials;
 mod optics;
+pub mod oracle;
 mod phong;
+mod pinhole;
+mod pixel;
+mod plane;
 mod sampling;
 mod sequence;
-mod studio;
+mod shelf;
 mod tone;
 mod world;
 
@@ -21,6 +27,10 @@ pub use antialiasing::Antialiasing;
 use image::DynamicImage;
 
 use crate::scene::Scene;
+use exposure::Exposure;
+use phong::Phong;
+use shelf::Shelf;
+use world::World;
 
 /// How many rays a picture took, by kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
@@ -64,8 +74,42 @@ pub fn render(
     height: u32,
     mode: Antialiasing,
 ) -> (DynamicImage, RayCounts) {
-    match &scene.room {
-        None => sampling::render(scene, width, height, mode),
-        Some(room) => exposure::render(scene, room, width, height, mode),
-    }
+    let shelf = Shelf::default();
+    let size = [width, height];
+    let is_transparent = scene.background.is_none();
+    let (pixels, counts) = match &scene.room {
+        None => {
+            let eye = Phong::new(World::new(scene, &shelf), size);
+            sampling::render(&eye, is_transparent, size, mode)
+        }
+        Some(room) => {
+            let exposure = Exposure::new(scene, mode);
+            let eye = oracle::Studio::new(scene, room, size, exposure.across());
+            exposure.take(&eye, size)
+        }
+    };
+    (pixel::picture(&pixels, is_transparent), counts)
+}
+
+/// The same picture from the `oracle`, to within rounding.
+pub fn render_by_oracle(
+    scene: &Scene,
+    width: u32,
+    height: u32,
+    mode: Antialiasing,
+) -> (DynamicImage, RayCounts) {
+    let size = [width, height];
+    let is_transparent = scene.background.is_none();
+    let (pixels, counts) = match &scene.room {
+        None => {
+            let eye = oracle::Phong::new(scene, size);
+            sampling::render(&eye, is_transparent, size, mode)
+        }
+        Some(room) => {
+            let exposure = Exposure::new(scene, mode);
+            let eye = oracle::Studio::new(scene, room, size, exposure.across());
+            exposure.take(&eye, size)
+        }
+    };
+    (pixel::picture(&pixels, is_transparent), counts)
 }

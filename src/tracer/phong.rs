@@ -1,153 +1,266 @@
-//! Whitted's recursion with Phong's sum (Turek 2008, 2.1 to 2.3 and 4.4).
+//! Whitted's recursion with Phong's sum (Turek 2008, 2.1 to 2.3 and 4.4), for packets of rays.
+
+use glam::Vec3;
 
 use super::RayCounts;
-use super::footprint::Footprint;
+use super::eye::Eye;
+use super::footprint::{Footprint, Footprints};
 use super::optics::{facing, mirrored, refracted};
+use super::pinhole::Pinhole;
 use super::world::{OFFSET, World};
-use crate::geometry::Ray;
-use crate::scene::{Rgb, Scene};
+use crate::lanes::{F32x8, LANES, Mask8, Simd, Task, Vec3x8, dispatch, math};
+use crate::packet::Rays;
+use crate::scene::Rgb;
 
 /// How often a ray may go straight through a surface before each further time counts as refraction.
-const MAX_PASSES: u32 = 100;
+const MAX_PASSES: f32 = 100.0;
 
 /// Phong's eye on a world.
 pub struct Phong<'a> {
     world: World<'a>,
+    pinhole: Pinhole,
+    /// The width that a ray through a whole pixel stands for at distance 1.
+    spread: f32,
+}
+
+/// A place of the picture, in pixels from its upper left corner; its ray stands for one of `side` across a
+/// pixel.
+#[derive(Clone, Copy, Debug)]
+pub struct Place {
+    pub x: f32,
+    pub y: f32,
+    pub side: f32,
 }
 
 /// What a single ray from the camera brings back.
-#[derive(Clone, Copy)]
-pub struct Sample {
-    pub color: Rgb,
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Seen {
+    pub color: Vec3,
     /// Whether it met anything.
     pub hits: bool,
     pub footprint: Footprint,
 }
 
-/// A ray on its way.
-struct Flight {
-    ray: Ray,
-    /// How often it was reflected or refracted.
-    depth: u32,
-    /// How often it went straight through a surface: between bodies of glass that touch or overlap.
-    passes: u32,
-    /// How far it has come from the camera.
-    length: f64,
-    /// Its share of the pixel's colour.
-    weight: f64,
-    /// The refractive index of what it is in.
-    index: f64,
+/// Rays on their way.
+struct Flight<S: Simd> {
+    rays: Rays<S>,
+    lanes: Mask8<S>,
+    /// How often they were reflected or refracted.
+    depth: F32x8<S>,
+    /// How often they went straight through a surface: between bodies of glass that touch or overlap.
+    passes: F32x8<S>,
+    /// How far they have come from the camera.
+    length: F32x8<S>,
+    /// Their shares of the pixel's colour.
+    weight: F32x8<S>,
+    /// The refractive index of what they are in.
+    index: F32x8<S>,
 }
 
 /// What is found on the way.
-struct Walk<'a> {
-    counts: &'a mut RayCounts,
-    footprint: Footprint,
+struct Walk<S: Simd> {
+    counts: RayCounts,
+    /// Which rays from the camera met anything, once that is known.
+    hits: Option<Mask8<S>>,
+    footprints: Footprints<S>,
     /// The width that a ray stands for at distance 1.
-    spread: f64,
+    spread: F32x8<S>,
 }
 
 impl<'a> Phong<'a> {
-    pub fn new(scene: &'a Scene) -> Phong<'a> {
-        Phong { world: World::new(scene) }
+    pub fn new(world: World<'a>, [width, height]: [u32; 2]) -> Phong<'a> {
+        let camera = &world.scene.camera;
+        let (pinhole, spread) = (Pinhole::new(camera, width, height), camera.spread(width) as f32);
+        Phong { world, pinhole, spread }
     }
 
-    /// What comes back along a ray from the camera, which stands for a width of `spread` at
-    /// distance 1.
-    pub fn trace(&self, ray: Ray, spread: f64, counts: &mut RayCounts) -> Sample {
-        counts.primary += 1;
-        let mut walk = Walk { counts, footprint: Footprint::default(), spread };
-        let index = self.world.index_at(ray.origin);
-        let flight = Flight { ray, depth: 0, passes: 0, length: 0.0, weight: 1.0, index };
-        let color = self.radiance(&flight, &mut walk);
-        let hits = !walk.footprint.is_of_nothing();
-        Sample { color, hits, footprint: walk.footprint }
+    /// What comes back through up to eight places.
+    #[inline(always)]
+    fn packet<S: Simd>(&self, places: &[Place], seen: &mut Vec<Seen>) -> RayCounts {
+        let place = |lane: usize| places[lane.min(places.len() - 1)];
+        let part = |part: fn(Place) -> f32| {
+            F32x8::<S>::load(&std::array::from_fn(|lane| part(place(lane))))
+        };
+        let rays = self.pinhole.rays(part(|place| place.x), part(|place| place.y));
+        let lanes = Mask8::from_bits((0xFF_u32 >> (LANES - places.len())) as u8);
+        let (zero, one) = (F32x8::splat(0.0), F32x8::splat(1.0));
+        let flight = Flight {
+            rays,
+            lanes,
+            depth: zero,
+            passes: zero,
+            length: zero,
+            weight: one,
+            index: if self.world.is_transparent() {
+                self.world.index_at(rays.origin, lanes)
+            } else {
+                one
+            },
+        };
+        let spread = F32x8::splat(self.spread) / part(|place| place.side);
+        let mut walk = Walk {
+            counts: RayCounts::default(),
+            hits: None,
+            footprints: Footprints::new(),
+            spread,
+        };
+        walk.counts.primary = places.len() as u64;
+        let color = self.radiance(&flight, &mut walk).store();
+        let footprints = walk.footprints.store();
+        let hits = walk.hits.map_or(0, Mask8::bits);
+        seen.extend((0..places.len()).map(|lane| Seen {
+            color: color[lane],
+            hits: hits >> lane & 1 == 1,
+            footprint: footprints[lane],
+        }));
+        walk.counts
     }
 
-    fn radiance(&self, flight: &Flight, walk: &mut Walk) -> Rgb {
-        let ray = &flight.ray;
-        let scene = self.world.scene;
-        let Some((index, hit)) = self.world.nearest(ray) else {
-            walk.footprint.meet_nothing();
-            return scene.background.unwrap_or(Rgb::ZERO);
-        };
-        let object = &scene.objects[index];
-        let point = ray.at(hit.t);
-        let length = flight.length + hit.t;
-        let (outward, normal) = facing(hit, ray.direction);
-        let leaving = point + outward * OFFSET;
-        let mirrored = mirrored(ray.direction, normal, outward);
+    #[inline(never)]
+    fn radiance<S: Simd>(&self, flight: &Flight<S>, walk: &mut Walk<S>) -> Vec3x8<S> {
+        S::run(|| {
+            let Flight { rays, lanes, .. } = flight;
+            let (world, scene) = (&self.world, self.world.scene);
+            let meeting = world.nearest(rays, F32x8::splat(scene.max_distance as f32), *lanes);
+            let hit = *lanes & meeting.lanes();
+            walk.hits = walk.hits.or(Some(hit));
+            walk.footprints.meet_nothing(lanes.but(hit));
+            let background = scene.background.unwrap_or(Rgb::ZERO).as_vec3();
+            let background = Vec3x8::splat(background);
+            if !hit.any() {
+                return background;
+            }
+            let length = flight.length + meeting.t;
+            let sight = world.sight(rays, &meeting, length * walk.spread, hit);
+            let materials = &world.materials;
+            let direction = rays.direction;
+            let (outward, normal) = facing(sight.normals, direction);
+            let leaving = sight.point + outward * F32x8::splat(OFFSET);
+            let mirrored = mirrored(direction, normal, outward);
 
-        let (material, place) = object.material(point, hit.normal);
-        let finish = &material.finish;
-        let color = object.color(material, place, length * walk.spread);
-
-        let (mut scattered, mut highlights) = (Rgb::splat(finish.ambient), Rgb::ZERO);
-        for light in &scene.lights {
-            let towards = light.position - leaving;
-            let distance = towards.length();
-            let towards = towards / distance;
-            let incidence = normal.dot(towards);
-            if incidence <= 0.0 {
-                continue;
-            }
-            walk.counts.shadow += 1;
-            let way = Ray { origin: leaving, direction: towards };
-            let light = light.color * self.world.transmission(&way, distance);
-            if light == Rgb::ZERO {
-                continue;
-            }
-            scattered += light * (finish.diffuse * incidence);
-            let highlight = mirrored.dot(towards);
-            if highlight > 0.0 {
-                highlights += light * (finish.specular * libm::pow(highlight, finish.shininess));
-            }
-        }
-        walk.footprint.meet(flight.weight, index, normal, color, scattered + highlights);
-        let mut sum = color * scattered + highlights;
-        if flight.depth >= scene.max_depth {
-            return sum;
-        }
-        let on = |ray: Ray, share: f64, index: f64| Flight {
-            ray,
-            depth: flight.depth + 1,
-            passes: flight.passes,
-            length,
-            weight: flight.weight * share,
-            index,
-        };
-        let mut mirror = finish.reflectivity;
-        if finish.transparency > 0.0 {
-            let behind = point - outward * OFFSET;
-            let index = self.world.index_at(behind);
-            match refracted(ray.direction, normal, flight.index / index) {
-                Some(direction) => {
-                    let ray = Ray { origin: behind, direction };
-                    let mut next = on(ray, finish.transparency, index);
-                    // What does not bend does not count, as long as there is an end to it.
-                    if index == flight.index && flight.passes < MAX_PASSES {
-                        next.depth = flight.depth;
-                        next.passes += 1;
-                    }
-                    if self.is_followed(&next) {
-                        walk.counts.refracted += 1;
-                        sum += self.radiance(&next, walk) * finish.transparency;
-                    }
+            let diffuse = materials.diffuse(sight.material);
+            let specular = materials.specular(sight.material);
+            let mut scattered = Vec3x8::grey(materials.ambient(sight.material));
+            let mut highlights = Vec3x8::zero();
+            let zero = F32x8::splat(0.0);
+            for light in &scene.lights {
+                let towards = Vec3x8::splat(light.position.as_vec3()) - leaving;
+                let distance = towards.length();
+                let towards = towards * distance.recip();
+                let incidence = normal.dot(towards);
+                let lit = hit & incidence.gt(zero);
+                if !lit.any() {
+                    continue;
                 }
-                // The reflection is total: all that comes this way is thrown back.
-                None => mirror = 1.0,
+                walk.counts.shadow += u64::from(lit.bits().count_ones());
+                let way = Rays { origin: leaving, direction: towards };
+                let share = world.transmission(&way, distance, lit);
+                let lit = lit & share.gt(zero);
+                if !lit.any() {
+                    continue;
+                }
+                let light = Vec3x8::splat(light.color.as_vec3()) * share;
+                let lit_by = light * (diffuse * incidence);
+                scattered += Vec3x8::select(lit, lit_by, Vec3x8::zero());
+                let highlight = mirrored.dot(towards);
+                let glossy = lit & highlight.gt(zero);
+                if glossy.any() {
+                    let power = math::pow(highlight, materials.shininess(sight.material));
+                    let gloss = light * (specular * power);
+                    highlights += Vec3x8::select(glossy, gloss, Vec3x8::zero());
+                }
             }
-        }
-        let next = on(Ray { origin: leaving, direction: mirrored }, mirror, flight.index);
-        if self.is_followed(&next) {
-            walk.counts.reflected += 1;
-            sum += self.radiance(&next, walk) * mirror;
-        }
-        sum
+            walk.footprints.meet(
+                hit,
+                flight.weight,
+                meeting.body,
+                normal,
+                sight.color,
+                scattered + highlights,
+            );
+            let mut sum = sight.color.times(scattered) + highlights;
+            let deeper = hit & flight.depth.lt(F32x8::splat(scene.max_depth as f32));
+            let mut mirror = materials.reflectivity(sight.material);
+            let depth = flight.depth + F32x8::splat(1.0);
+            if world.is_transparent() && deeper.any() {
+                let share = materials.transparency(sight.material);
+                let clear = deeper & share.gt(zero);
+                if clear.any() {
+                    let behind = sight.point - outward * F32x8::splat(OFFSET);
+                    let index = world.index_at(behind, clear);
+                    let (bent, passes_through) = refracted(direction, normal, flight.index / index);
+                    // The reflection is total: all that comes this way is thrown back.
+                    mirror = clear.but(passes_through).select(F32x8::splat(1.0), mirror);
+                    // What does not bend does not count, as long as there is an end to it.
+                    let straight =
+                        index.eq(flight.index) & flight.passes.lt(F32x8::splat(MAX_PASSES));
+                    let next = Flight {
+                        rays: Rays { origin: behind, direction: bent },
+                        lanes: clear & passes_through,
+                        depth: straight.select(flight.depth, depth),
+                        passes: flight.passes + straight.keep(F32x8::splat(1.0)),
+                        length,
+                        weight: flight.weight * share,
+                        index,
+                    };
+                    let seen = self.followed(next, walk, |counts| &mut counts.refracted);
+                    sum += seen * (clear & passes_through).keep(share);
+                }
+            }
+            if deeper.any() {
+                let next = Flight {
+                    rays: Rays { origin: leaving, direction: mirrored },
+                    lanes: deeper,
+                    depth,
+                    passes: flight.passes,
+                    length,
+                    weight: flight.weight * mirror,
+                    index: flight.index,
+                };
+                let seen = self.followed(next, walk, |counts| &mut counts.reflected);
+                sum += seen * deeper.keep(mirror);
+            }
+            Vec3x8::select(hit, sum, background)
+        })
     }
 
-    /// Whether a ray is worth its while.
-    fn is_followed(&self, flight: &Flight) -> bool {
-        flight.weight > 0.0 && flight.weight >= self.world.scene.min_weight
+    /// What comes back along those rays that are worth their while; nothing along others.
+    #[inline(always)]
+    fn followed<S: Simd>(
+        &self,
+        flight: Flight<S>,
+        walk: &mut Walk<S>,
+        count: impl FnOnce(&mut RayCounts) -> &mut u64,
+    ) -> Vec3x8<S> {
+        let least = F32x8::splat(self.world.scene.min_weight as f32);
+        let is_worth = flight.weight.gt(F32x8::splat(0.0)) & flight.weight.ge(least);
+        let lanes = flight.lanes & is_worth;
+        if !lanes.any() {
+            return Vec3x8::zero();
+        }
+        *count(&mut walk.counts) += u64::from(lanes.bits().count_ones());
+        let seen = self.radiance(&Flight { lanes, ..flight }, walk);
+        Vec3x8::select(lanes, seen, Vec3x8::zero())
+    }
+}
+
+impl Eye for Phong<'_> {
+    type Sample = Place;
+    type Seen = Seen;
+
+    fn see(&self, samples: &[Place], seen: &mut Vec<Seen>) -> RayCounts {
+        struct See<'a, 'b>(&'a Phong<'b>, &'a [Place], &'a mut Vec<Seen>);
+        impl Task for See<'_, '_> {
+            type Output = RayCounts;
+
+            #[inline(always)]
+            fn run<S: Simd>(self) -> RayCounts {
+                let packets = self.1.chunks(LANES);
+                packets.fold(RayCounts::default(), |counts, places| {
+                    counts + self.0.packet::<S>(places, self.2)
+                })
+            }
+        }
+        dispatch(See(self, samples, seen))
     }
 }

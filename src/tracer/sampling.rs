@@ -1,73 +1,90 @@
 //! Phong's pictures: one ray a pixel, a grid, or a grid where neighbours differ.
 
-use image::DynamicImage;
+use glam::Vec3;
 
-use super::canvas::{Canvas, Pixel};
-use super::phong::{Phong, Sample};
-use super::{Antialiasing, RayCounts, antialiasing};
-use crate::scene::{Rgb, Scene};
+use super::eye::Eye;
+use super::phong::{Place, Seen};
+use super::pixel::{Pixel, Stored};
+use super::plane::{Plane, Spot};
+use super::{Antialiasing, RayCounts};
 
-/// Traces `scene` as [`super::render`] does, by Phong's sum.
+/// Paints a picture through `eye`; what meets nothing is transparent in one that `is_transparent`.
 pub fn render(
-    scene: &Scene,
-    width: u32,
-    height: u32,
+    eye: &impl Eye<Sample = Place, Seen = Seen>,
+    is_transparent: bool,
+    [width, height]: [u32; 2],
     mode: Antialiasing,
-) -> (DynamicImage, RayCounts) {
-    let easel = Easel { tracer: Phong::new(scene), scene, width, height };
-    let mut picture = Canvas::new(width, height, scene.background.is_none());
+) -> (Plane<Stored>, RayCounts) {
+    let mut picture = Plane::new(width, height, Stored::default());
+    let easel = Easel { eye, is_transparent };
     let counts = match mode {
         Antialiasing::None => easel.grid(&mut picture, 1),
         Antialiasing::Grid(side) => easel.grid(&mut picture, side),
         Antialiasing::Adaptive { rays, threshold } => easel.adaptive(&mut picture, rays, threshold),
     };
-    (picture.into_picture(), counts)
+    (picture, counts)
 }
 
-/// A scene and the size that it is painted at.
-struct Easel<'a> {
-    tracer: Phong<'a>,
-    scene: &'a Scene,
-    width: u32,
-    height: u32,
+struct Easel<'a, E> {
+    eye: &'a E,
+    is_transparent: bool,
 }
 
-impl Easel<'_> {
-    fn grid(&self, picture: &mut Canvas, side: u32) -> RayCounts {
-        picture.paint(0..self.height as usize, |x, y, counts| self.mean(x, y, side, counts))
+impl<E: Eye<Sample = Place, Seen = Seen>> Easel<'_, E> {
+    fn grid(&self, picture: &mut Plane<Stored>, side: u32) -> RayCounts {
+        picture.fill(|_| true, |spots, made| self.means(spots, side, made))
     }
 
-    fn adaptive(&self, picture: &mut Canvas, side: u32, threshold: f32) -> RayCounts {
-        let look = |x: usize, y: usize, counts: &mut RayCounts| {
-            self.sample(x as f64 + 0.5, y as f64 + 0.5, 1, counts)
+    fn adaptive(&self, picture: &mut Plane<Stored>, side: u32, threshold: f32) -> RayCounts {
+        let mut looks = Plane::new(picture.width, picture.height, Seen::default());
+        let look = |spots: &[Spot], made: &mut Vec<Seen>| {
+            self.eye
+                .see(&spots.iter().map(|spot| place(*spot, [0.5; 2], 1)).collect::<Vec<_>>(), made)
         };
-        picture.paint_twice(look, |x, y, looks, counts| {
-            let here = looks.at(x, y);
-            let differs =
-                looks.round(x, y).any(|there| there.footprint.differs(&here.footprint, threshold));
-            if differs { self.mean(x, y, side, counts) } else { self.pixel(here) }
-        })
+        let first = looks.fill(|_| true, look);
+        let differs = |spot: Spot| {
+            let here = looks.at(spot);
+            looks.round(spot).any(|there| there.footprint.differs(&here.footprint, threshold))
+        };
+        let more = picture.fill(differs, |spots, made| self.means(spots, side, made));
+        picture.fill(
+            |spot| !differs(spot),
+            |spots, made| {
+                made.extend(spots.iter().map(|spot| self.pixel(&looks.at(*spot)).stored()));
+                RayCounts::default()
+            },
+        );
+        first + more
     }
 
-    fn mean(&self, x: usize, y: usize, side: u32, counts: &mut RayCounts) -> Pixel {
-        antialiasing::mean(side, |dx, dy| {
-            let sample = self.sample(x as f64 + dx, y as f64 + dy, side, counts);
-            self.pixel(&sample)
-        })
+    /// The means over the middles of `side` × `side` parts of pixels.
+    fn means(&self, spots: &[Spot], side: u32, made: &mut Vec<Stored>) -> RayCounts {
+        let parts = (side * side) as usize;
+        let middle = |index: u32| (index as f32 + 0.5) / side as f32;
+        let within = |part: u32| [middle(part % side), middle(part / side)];
+        let places: Vec<Place> = spots
+            .iter()
+            .flat_map(|spot| (0..side * side).map(move |part| place(*spot, within(part), side)))
+            .collect();
+        let mut seen = Vec::with_capacity(places.len());
+        let counts = self.eye.see(&places, &mut seen);
+        made.extend(seen.chunks_exact(parts).map(|seen| {
+            let sum = seen.iter().fold(Pixel::default(), |sum, seen| sum + self.pixel(seen));
+            (sum / parts as f32).stored()
+        }));
+        counts
     }
 
-    fn pixel(&self, sample: &Sample) -> Pixel {
-        if self.scene.background.is_none() && !sample.hits {
+    fn pixel(&self, seen: &Seen) -> Pixel {
+        if self.is_transparent && !seen.hits {
             return Pixel::default();
         }
         // What is too bright is as bright as can be, also beside what is not.
-        Pixel { color: sample.color.min(Rgb::ONE), cover: 1.0 }
+        Pixel { color: seen.color.min(Vec3::ONE), cover: 1.0 }
     }
+}
 
-    /// The ray through a place of the picture, one of `side` across its pixel.
-    fn sample(&self, x: f64, y: f64, side: u32, counts: &mut RayCounts) -> Sample {
-        let ray = self.scene.camera.ray(x, y, self.width, self.height);
-        let spread = self.scene.camera.spread(self.width * side);
-        self.tracer.trace(ray, spread, counts)
-    }
+/// The place at a share of a pixel's width and height from its upper left corner.
+fn place([x, y]: Spot, [dx, dy]: [f32; 2], side: u32) -> Place {
+    Place { x: x as f32 + dx, y: y as f32 + dy, side: side as f32 }
 }

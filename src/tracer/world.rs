@@ -1,52 +1,424 @@
-//! What rays ask a scene, whatever then becomes of the answers.
+//! What packets of rays ask a scene, whatever then becomes of the answers.
 
-use glam::DVec3;
+use std::sync::Arc;
 
-use super::hierarchy::Hierarchy;
-use crate::geometry::{Hit, Ray, Solid};
-use crate::scene::Scene;
+use glam::{DMat3, DVec3, Vec3};
+
+use super::cells::Grid;
+use crate::geometry::{Bounds, Solid as _};
+use crate::lanes::{F32x8, Mask8, Simd, U32x8, Vec3x8};
+use crate::packet::solids::{Crossing, Normals, Solid};
+use crate::packet::surfaces::{Look, Surface};
+use crate::packet::{Rays, Transform};
+use crate::scene::{Object, Scene};
+
+use super::materials::Materials;
+use super::shelf::Shelf;
 
 /// How far off a surface its secondary rays begin, along the normal, in world units: enough not
 /// to meet the surface itself, too little to miss what touches it.
-pub const OFFSET: f64 = 1e-4;
+pub const OFFSET: f32 = 1e-4;
 
-/// A scene with what is needed to trace rays through it.
+/// How far below a surface its material is asked for: a flat face may be the very border between two
+/// squares or two pictures, where rounding would choose.
+const HAIR: f32 = 1e-4;
+
+/// What stands for no body.
+pub const NOTHING: u32 = u32::MAX;
+
+/// A body of the scene.
+struct Body {
+    solid: Arc<Solid>,
+    to_own: Transform,
+    /// What carries normals from the solid's own space, where that is turned or stretched.
+    normals: Option<[Vec3; 3]>,
+    surface: Surface,
+    /// Where the surface's materials begin in the world's.
+    materials: u32,
+    /// A box that is known to hold the body, with room for rounding.
+    min: Vec3,
+    max: Vec3,
+    is_transparent: bool,
+    is_endless: bool,
+}
+
+/// A scene with what is needed to trace packets through it.
 pub struct World<'a> {
     pub scene: &'a Scene,
-    hierarchy: Hierarchy<'a>,
-    /// Which objects are transparent.
+    pub materials: Materials,
+    /// What is opaque first: of surfaces in one place that of the first body is seen.
+    bodies: Vec<Body>,
+    grid: Grid,
+    /// What stands in no cell, and what has no end.
+    loose: Vec<usize>,
+    endless: Vec<usize>,
+    /// Which bodies are transparent.
     transparent: Vec<usize>,
 }
 
+/// Which rays still look for something, and how far.
+#[derive(Clone, Copy)]
+pub struct Search<S: Simd> {
+    pub lanes: Mask8<S>,
+    pub before: F32x8<S>,
+}
+
+/// Where rays meet bodies.
+#[derive(Clone, Copy)]
+pub struct Meeting<S: Simd> {
+    pub t: F32x8<S>,
+    /// [`NOTHING`] where nothing is met.
+    pub body: U32x8<S>,
+    part: U32x8<S>,
+}
+
+impl<S: Simd> Meeting<S> {
+    /// Where anything is met.
+    #[inline(always)]
+    pub fn lanes(&self) -> Mask8<S> {
+        !self.body.eq(U32x8::splat(NOTHING))
+    }
+}
+
+/// What is seen where rays meet bodies.
+#[derive(Clone, Copy)]
+pub struct Sight<S: Simd> {
+    pub point: Vec3x8<S>,
+    pub normals: Normals<S>,
+    pub color: Vec3x8<S>,
+    /// By the world's [`Materials`].
+    pub material: U32x8<S>,
+}
+
 impl<'a> World<'a> {
-    pub fn new(scene: &'a Scene) -> World<'a> {
-        let is_transparent = |index: &usize| scene.objects[*index].surface.is_transparent();
-        World {
-            scene,
-            hierarchy: Hierarchy::new(&scene.objects),
-            transparent: (0..scene.objects.len()).filter(is_transparent).collect(),
+    pub fn new(scene: &'a Scene, shelf: &Shelf) -> World<'a> {
+        let mut order: Vec<&Object> = scene.objects.iter().collect();
+        order.sort_by_key(|object| object.surface.is_transparent());
+        let mut materials = Materials::default();
+        let bodies: Vec<Body> = order
+            .iter()
+            .map(|object| Body::new(object, shelf, materials.add(object.surface.materials())))
+            .collect();
+        let all = |is: fn(&Body) -> bool| {
+            (0..bodies.len()).filter(|index| is(&bodies[*index])).collect::<Vec<usize>>()
+        };
+        let endless = all(|body| body.is_endless);
+        let transparent = all(|body| body.is_transparent);
+        let finite = bodies.iter().enumerate().filter(|(_, body)| !body.is_endless);
+        let (grid, loose) =
+            Grid::new(scene.cells, finite.map(|(index, body)| (index, [body.min, body.max])));
+        World { scene, materials, bodies, grid, loose, endless, transparent }
+    }
+
+    /// Whether anything can be seen through.
+    pub fn is_transparent(&self) -> bool {
+        !self.transparent.is_empty()
+    }
+
+    /// Whether the body that rays meet has no end.
+    #[inline(always)]
+    pub fn is_endless<S: Simd>(&self, meeting: &Meeting<S>) -> Mask8<S> {
+        self.endless.iter().fold(Mask8::no_lanes(), |lanes, index| {
+            lanes | meeting.body.eq(U32x8::splat(*index as u32))
+        })
+    }
+
+    /// The nearest body in front of `rays` up to the distances `before`.
+    #[inline(never)]
+    pub fn nearest<S: Simd>(
+        &self,
+        rays: &Rays<S>,
+        before: F32x8<S>,
+        lanes: Mask8<S>,
+    ) -> Meeting<S> {
+        S::run(|| {
+            let nothing = U32x8::splat(NOTHING);
+            let mut found = Meeting { t: before, body: nothing, part: nothing };
+            self.visit(rays, Search { lanes, before }, |index, lanes, search| {
+                let body = &self.bodies[index];
+                // A hair more, so that what is in one place is compared.
+                let limit = found.t * F32x8::splat(1.0 + 2.0 * f32::EPSILON);
+                let crossing = body.nearest(rays, F32x8::splat(0.0), limit, lanes);
+                let number = U32x8::splat(index as u32);
+                let is_first = crossing.t.eq(found.t) & number.below(found.body);
+                let closer = lanes & (crossing.t.lt(found.t) | is_first);
+                found.t = closer.select(crossing.t, found.t);
+                found.body = closer.select_words(number, found.body);
+                found.part = closer.select_words(crossing.part, found.part);
+                search.before = found.t;
+            });
+            found
+        })
+    }
+
+    /// How much of lights at `distance` comes along `rays`: what is opaque holds all of it back, each
+    /// surface of what is transparent lets its share through. (A line bends at none of them.)
+    #[inline(never)]
+    pub fn transmission<S: Simd>(
+        &self,
+        rays: &Rays<S>,
+        distance: F32x8<S>,
+        lanes: Mask8<S>,
+    ) -> F32x8<S> {
+        S::run(|| {
+            let mut share = lanes.keep(F32x8::splat(1.0));
+            self.visit(rays, Search { lanes, before: distance }, |index, lanes, search| {
+                let body = &self.bodies[index];
+                if body.is_transparent {
+                    let passed = self.passed(body, rays, distance, lanes);
+                    share = lanes.select(share * passed, share);
+                } else {
+                    let blocked = lanes & body.blocks(rays, F32x8::splat(0.0), distance, lanes);
+                    share = blocked.select(F32x8::splat(0.0), share);
+                    search.lanes = search.lanes.but(blocked);
+                }
+            });
+            share
+        })
+    }
+
+    /// What the surfaces of a transparent body let through up to `distance`.
+    fn passed<S: Simd>(
+        &self,
+        body: &Body,
+        rays: &Rays<S>,
+        distance: F32x8<S>,
+        lanes: Mask8<S>,
+    ) -> F32x8<S> {
+        S::run(|| {
+            let mut share = F32x8::splat(1.0);
+            let mut after = F32x8::splat(0.0);
+            let mut lanes = lanes;
+            loop {
+                let crossing = body.nearest(rays, after, distance, lanes);
+                lanes = lanes & crossing.t.lt(distance);
+                if !lanes.any() {
+                    return share;
+                }
+                let point = rays.at(crossing.t);
+                let normals = body.normals(point, crossing.part, lanes);
+                let own = body.to_own.point(point - normals.flat * F32x8::splat(HAIR));
+                let material = body.surface.material(own, lanes) + U32x8::splat(body.materials);
+                let through = self.materials.transparency(material);
+                share = lanes.select(share * through, share);
+                after = lanes.select(crossing.t, after);
+            }
+        })
+    }
+
+    /// Shows `look` the bodies that rays may meet, each with the lanes that may, as long as the search goes on:
+    /// `look` may give up lanes, and shorten distances.
+    #[inline(always)]
+    fn visit<S: Simd>(
+        &self,
+        rays: &Rays<S>,
+        mut search: Search<S>,
+        mut look: impl FnMut(usize, Mask8<S>, &mut Search<S>),
+    ) {
+        for index in &self.endless {
+            if search.lanes.any() {
+                look(*index, search.lanes, &mut search);
+            }
+        }
+        let inverse = rays.direction.map(|part| part.recip());
+        for index in &self.loose {
+            let body = &self.bodies[*index];
+            let near = search.lanes & enters(rays, inverse, [body.min, body.max], search.before);
+            if near.any() {
+                look(*index, near, &mut search);
+            }
+        }
+        self.grid.visit(rays, inverse, &mut search, look);
+    }
+
+    /// What is seen of the bodies that rays meet, where widths of `seen` are seen at once.
+    #[inline(always)]
+    pub fn sight<S: Simd>(
+        &self,
+        rays: &Rays<S>,
+        meeting: &Meeting<S>,
+        seen: F32x8<S>,
+        lanes: Mask8<S>,
+    ) -> Sight<S> {
+        let point = rays.at(meeting.t);
+        let zero = Vec3x8::zero();
+        let mut sight = Sight {
+            point,
+            normals: Normals { flat: zero, smooth: zero },
+            color: zero,
+            material: U32x8::splat(0),
+        };
+        self.each(meeting, lanes, |body, lanes| {
+            self.sight_of(body, point, meeting.part, seen, lanes, &mut sight);
+        });
+        sight
+    }
+
+    /// Adds what is seen of one body.
+    #[inline(never)]
+    fn sight_of<S: Simd>(
+        &self,
+        body: &Body,
+        point: Vec3x8<S>,
+        part: U32x8<S>,
+        seen: F32x8<S>,
+        lanes: Mask8<S>,
+        sight: &mut Sight<S>,
+    ) {
+        S::run(|| {
+            let normals = body.normals(point, part, lanes);
+            let own = body.to_own.point(point - normals.flat * F32x8::splat(HAIR));
+            let Look { color, material } = body.surface.look(own, seen, lanes);
+            let material = material + U32x8::splat(body.materials);
+            sight.normals.flat = Vec3x8::select(lanes, normals.flat, sight.normals.flat);
+            sight.normals.smooth = Vec3x8::select(lanes, normals.smooth, sight.normals.smooth);
+            sight.color = Vec3x8::select(lanes, color, sight.color);
+            sight.material = lanes.select_words(material, sight.material);
+        });
+    }
+
+    /// The materials of what rays meet, without more.
+    #[inline(always)]
+    pub fn material<S: Simd>(
+        &self,
+        rays: &Rays<S>,
+        meeting: &Meeting<S>,
+        lanes: Mask8<S>,
+    ) -> U32x8<S> {
+        let point = rays.at(meeting.t);
+        let mut found = U32x8::splat(0);
+        self.each(meeting, lanes, |body, lanes| {
+            let material = if body.surface.is_uniform() {
+                U32x8::splat(body.materials)
+            } else {
+                let normals = body.normals(point, meeting.part, lanes);
+                let own = body.to_own.point(point - normals.flat * F32x8::splat(HAIR));
+                body.surface.material(own, lanes) + U32x8::splat(body.materials)
+            };
+            found = lanes.select_words(material, found);
+        });
+        found
+    }
+
+    /// Calls `look` once for each body that is met, with the lanes that meet it.
+    #[inline(always)]
+    fn each<S: Simd>(
+        &self,
+        meeting: &Meeting<S>,
+        lanes: Mask8<S>,
+        mut look: impl FnMut(&Body, Mask8<S>),
+    ) {
+        let bodies = meeting.body.store();
+        let mut left = (lanes & meeting.lanes()).bits();
+        while left != 0 {
+            let index = bodies[left.trailing_zeros() as usize];
+            let lanes = Mask8::from_bits(left) & meeting.body.eq(U32x8::splat(index));
+            look(&self.bodies[index as usize], lanes);
+            left &= !lanes.bits();
         }
     }
 
-    /// The nearest object in front of `ray`, and where the ray meets it.
-    pub fn nearest(&self, ray: &Ray) -> Option<(usize, Hit)> {
-        self.hierarchy.nearest(ray, self.scene.max_distance)
-    }
-
-    /// The nearest object in front of `ray` up to `distance`, and where the ray meets it.
-    pub fn nearest_within(&self, ray: &Ray, distance: f64) -> Option<(usize, Hit)> {
-        self.hierarchy.nearest(ray, distance)
-    }
-
-    /// How much of a light at `distance` comes along `ray`.
-    pub fn transmission(&self, ray: &Ray, distance: f64) -> f64 {
-        self.hierarchy.transmission(ray, distance)
-    }
-
-    /// The refractive index at `point`: that of all that is transparent, where it lies inside any of
+    /// The refractive index at `points`: that of all that is transparent, where it lies inside any of
     /// it (Turek 2008, 4.2).
-    pub fn index_at(&self, point: DVec3) -> f64 {
-        let holds = |index: &usize| self.scene.objects[*index].body.contains(point);
-        if self.transparent.iter().any(holds) { self.scene.snell_index } else { 1.0 }
+    pub fn index_at<S: Simd>(&self, points: Vec3x8<S>, lanes: Mask8<S>) -> F32x8<S> {
+        S::run(|| {
+            let mut inside = Mask8::no_lanes();
+            for index in &self.transparent {
+                let body = &self.bodies[*index];
+                let (min, max) = (Vec3x8::splat(body.min), Vec3x8::splat(body.max));
+                let near = points.x.ge(min.x) & points.y.ge(min.y) & points.z.ge(min.z);
+                let near = near & points.x.le(max.x) & points.y.le(max.y) & points.z.le(max.z);
+                let near = lanes.but(inside) & (near | Mask8::splat(body.is_endless));
+                if near.any() {
+                    inside = inside | near & body.contains(points, near);
+                }
+            }
+            inside.select(F32x8::splat(self.scene.snell_index as f32), F32x8::splat(1.0))
+        })
+    }
+}
+
+/// Which rays may come into a box before `before`. What is infinite in `inverse` is so by a direction of
+/// zero; on a face of the box such a ray counts as inside.
+#[inline(always)]
+pub fn enters<S: Simd>(
+    rays: &Rays<S>,
+    inverse: Vec3x8<S>,
+    [min, max]: [Vec3; 2],
+    before: F32x8<S>,
+) -> Mask8<S> {
+    let low = (Vec3x8::splat(min) - rays.origin).times(inverse);
+    let high = (Vec3x8::splat(max) - rays.origin).times(inverse);
+    let (near, far) = (low.min(high), low.max(high));
+    let enter = near.x.max(near.y).max(near.z.max(F32x8::splat(0.0)));
+    let exit = far.x.min(far.y).min(far.z.min(before));
+    enter.le(exit)
+}
+
+impl Body {
+    fn new(object: &Object, shelf: &Shelf, materials: u32) -> Body {
+        let transform = object.body.transform();
+        let to_own = transform.inverse();
+        let bounds = object.body.bounds();
+        let is_endless = !bounds.is_finite();
+        let Bounds { min, max } = if is_endless { Bounds::EVERYTHING } else { bounds };
+        let margin = DVec3::splat(1e-3);
+        let normals = to_own.matrix3.transpose();
+        let is_turned = normals != DMat3::IDENTITY;
+        Body {
+            solid: shelf.solid(object.body.shared()),
+            to_own: Transform::new(&to_own),
+            normals: is_turned.then(|| {
+                [normals.x_axis, normals.y_axis, normals.z_axis].map(|column| column.as_vec3())
+            }),
+            surface: Surface::new(object),
+            materials,
+            min: (min - margin).as_vec3(),
+            max: (max + margin).as_vec3(),
+            is_transparent: object.surface.is_transparent(),
+            is_endless,
+        }
+    }
+
+    #[inline(always)]
+    fn nearest<S: Simd>(
+        &self,
+        rays: &Rays<S>,
+        after: F32x8<S>,
+        before: F32x8<S>,
+        lanes: Mask8<S>,
+    ) -> Crossing<S> {
+        self.solid.nearest(&self.to_own.rays(rays), after, before, lanes)
+    }
+
+    #[inline(always)]
+    fn blocks<S: Simd>(
+        &self,
+        rays: &Rays<S>,
+        after: F32x8<S>,
+        before: F32x8<S>,
+        lanes: Mask8<S>,
+    ) -> Mask8<S> {
+        self.solid.blocks(&self.to_own.rays(rays), after, before, lanes)
+    }
+
+    #[inline(always)]
+    fn contains<S: Simd>(&self, points: Vec3x8<S>, lanes: Mask8<S>) -> Mask8<S> {
+        self.solid.contains(self.to_own.point(points), lanes)
+    }
+
+    #[inline(always)]
+    fn normals<S: Simd>(&self, points: Vec3x8<S>, parts: U32x8<S>, lanes: Mask8<S>) -> Normals<S> {
+        let normals = self.solid.normals(self.to_own.point(points), parts, lanes);
+        let Some([x, y, z]) = self.normals else {
+            return normals;
+        };
+        let carry = |normal: Vec3x8<S>| {
+            let carried = Vec3x8::splat(x) * normal.x
+                + Vec3x8::splat(y) * normal.y
+                + Vec3x8::splat(z) * normal.z;
+            carried.normalized()
+        };
+        Normals { flat: carry(normals.flat), smooth: carry(normals.smooth) }
     }
 }

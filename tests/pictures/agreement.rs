@@ -219,6 +219,7 @@ fn carvings() -> Scene {
             z_rot: -5.0,
         }),
         room: None,
+        cells: None,
         background: Some(DVec3::new(0.3, 0.4, 0.5)),
         max_depth: 8,
         min_weight: 1.0 / 1024.0,

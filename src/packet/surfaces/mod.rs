@@ -27,6 +27,11 @@ impl Surface {
         todo!()
     }
 
+    /// Whether there is one material all over.
+    pub fn is_uniform(&self) -> bool {
+        todo!()
+    }
+
     /// Which material is at `points`, for those who need no colour.
     #[inline(always)]
     pub fn material<S: Simd>(&self, _points: Vec3x8<S>, _lanes: Mask8<S>) -> U32x8<S> {

@@ -8,12 +8,14 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 
-use super::RayCounts;
 use super::optics::{facing, fresnel, grazing, mirrored, refracted};
-use super::sequence::Sequence;
 use super::world::{OFFSET, World};
 use crate::geometry::{Hit, Ray, Solid};
 use crate::scene::{MIDDLE, Material, Rgb, Room, Scene, linear_light};
+use crate::tracer::RayCounts;
+use crate::tracer::exposure::{Glimpse, LENS, PLACE, Sample};
+use crate::tracer::eye::Eye;
+use crate::tracer::sequence::Sequence;
 
 /// How much of its light a ground under a coat throws back, of what its colour says.
 const GROUND: f64 = 0.9;
@@ -53,20 +55,15 @@ mod purpose {
     pub const STEP: u32 = 256;
 }
 
-/// The studio's eye on a world.
+/// The studio's eye on a world, for a picture of a size.
 pub struct Studio<'a> {
     world: World<'a>,
+    size: [u32; 2],
+    /// Rays stand for so much less than a pixel.
+    across: f64,
     room: &'a Room,
     /// What is seen through glass where there is nothing.
     background: Rgb,
-}
-
-/// What a single ray from the camera brings back: linear light, and how much of the background it
-/// hides.
-#[derive(Clone, Copy, Default)]
-pub struct Glimpse {
-    pub light: Rgb,
-    pub cover: f64,
 }
 
 /// A ray on its way.
@@ -97,36 +94,35 @@ struct Meeting<'a> {
 }
 
 impl<'a> Studio<'a> {
-    pub fn new(scene: &'a Scene, room: &'a Room) -> Studio<'a> {
+    /// For samples as wide as a pixel over `across`.
+    pub fn new(scene: &'a Scene, room: &'a Room, size: [u32; 2], across: f64) -> Studio<'a> {
         let background = linear_light(scene.background.unwrap_or(PAPER));
-        Studio { world: World::new(scene), room, background }
+        Studio { world: World { scene }, room, size, across, background }
     }
 
     /// What comes back along a ray from the camera, which stands for a width of `spread` at
     /// distance 1.
-    pub fn trace(
-        &self,
-        ray: Ray,
-        spread: f64,
-        numbers: &Sequence,
-        counts: &mut RayCounts,
-    ) -> Glimpse {
+    fn trace(&self, ray: Ray, spread: f64, numbers: &Sequence, counts: &mut RayCounts) -> Glimpse {
         counts.primary += 1;
         let index = self.world.index_at(ray.origin);
         let flight = Flight { ray, depth: 0, length: 0.0, weight: 1.0, index, spread };
-        let Some((object, hit)) = self.world.nearest(&ray) else {
+        let Some((object, hit)) = self.nearest(&ray) else {
             return Glimpse::default();
         };
         let light = self.light(&flight, object, hit, numbers, counts);
         let body = &self.world.scene.objects[object].body;
         let is_endless = !body.bounds().is_finite();
         let cover = if is_endless { 1.0 - melted(ray.at(hit.t)) } else { 1.0 };
-        Glimpse { light, cover }
+        Glimpse::new(light.as_vec3(), cover as f32)
+    }
+
+    fn nearest(&self, ray: &Ray) -> Option<(usize, Hit)> {
+        self.world.nearest(ray, self.world.scene.max_distance)
     }
 
     /// The light that comes back along a ray that met something, or nothing.
     fn radiance(&self, flight: &Flight, numbers: &Sequence, counts: &mut RayCounts) -> Rgb {
-        match self.world.nearest(&flight.ray) {
+        match self.nearest(&flight.ray) {
             Some((object, hit)) => self.light(flight, object, hit, numbers, counts),
             None => self.background,
         }
@@ -222,7 +218,7 @@ impl<'a> Studio<'a> {
         }
         counts.shadow += 1;
         let way = Ray { origin: meeting.leaving, direction };
-        match self.world.nearest_within(&way, HIDES) {
+        match self.world.nearest(&way, HIDES) {
             None if direction.y > 0.0 => sky.brightness,
             None => FAR_GROUND * self.room.bounce,
             Some((index, hit)) => {
@@ -256,7 +252,7 @@ impl<'a> Studio<'a> {
             let direction = if blurred.dot(meeting.outward) > 0.0 { blurred } else { exact };
             let ray = Ray { origin: meeting.leaving, direction };
             counts.reflected += 1;
-            if let Some((object, hit)) = self.world.nearest(&ray) {
+            if let Some((object, hit)) = self.nearest(&ray) {
                 let next = Flight {
                     ray,
                     depth: flight.depth + 1,
@@ -352,4 +348,22 @@ fn sphere((u, v): (f64, f64)) -> DVec3 {
 fn ball((u, v): (f64, f64)) -> DVec3 {
     // The golden ratio parts u from what it is used for a second time.
     sphere((u, v)) * (u * 1.618_033_988_749_895 * 8.0).fract()
+}
+
+impl Eye for Studio<'_> {
+    type Sample = Sample;
+    type Seen = Glimpse;
+
+    fn see(&self, samples: &[Sample], seen: &mut Vec<Glimpse>) -> RayCounts {
+        let mut counts = RayCounts::default();
+        let ([width, height], camera) = (self.size, &self.world.scene.camera);
+        seen.extend(samples.iter().map(|&Sample { spot: [x, y], index, is_centered }| {
+            let numbers = Sequence::new(x, y, index);
+            let (dx, dy) = if is_centered { (0.5, 0.5) } else { numbers.pair(PLACE) };
+            let ray = camera.ray(f64::from(x) + dx, f64::from(y) + dy, width, height);
+            let ray = camera.ray_through_lens(ray, || numbers.pair(LENS));
+            self.trace(ray, camera.spread(width) / self.across, &numbers, &mut counts)
+        }));
+        counts
+    }
 }

@@ -1,0 +1,60 @@
+//! What a pixel shows, and as which bytes.
+
+use glam::Vec3;
+use image::{DynamicImage, RgbImage, RgbaImage};
+
+use super::plane::Plane;
+
+/// What a pixel, or a part of it, shows.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Pixel {
+    /// As it is stored, 0 to 1, times `cover`.
+    pub color: Vec3,
+    /// How much of it is not transparent, 0 to 1.
+    pub cover: f32,
+}
+
+/// Red, green, blue and alpha, not multiplied.
+pub type Stored = [u8; 4];
+
+impl Pixel {
+    /// As a picture stores it; the colour of what is hardly there is that of what is there.
+    pub fn stored(self) -> Stored {
+        let color = if self.cover > 0.0 { self.color / self.cover } else { Vec3::ZERO };
+        let [red, green, blue] = color.to_array().map(byte);
+        [red, green, blue, byte(self.cover)]
+    }
+}
+
+fn byte(share: f32) -> u8 {
+    (share.clamp(0.0, 1.0) * 255.0 + 0.5) as u8
+}
+
+impl std::ops::Add for Pixel {
+    type Output = Pixel;
+
+    fn add(self, other: Pixel) -> Pixel {
+        Pixel { color: self.color + other.color, cover: self.cover + other.cover }
+    }
+}
+
+impl std::ops::Div<f32> for Pixel {
+    type Output = Pixel;
+
+    fn div(self, by: f32) -> Pixel {
+        Pixel { color: self.color / by, cover: self.cover / by }
+    }
+}
+
+/// The picture, with its alpha channel only if it is said to be transparent.
+pub fn picture(pixels: &Plane<Stored>, is_transparent: bool) -> DynamicImage {
+    let (width, height) = (pixels.width, pixels.height);
+    let picture = if is_transparent {
+        let bytes = pixels.values().as_flattened().to_vec();
+        RgbaImage::from_raw(width, height, bytes).map(DynamicImage::ImageRgba8)
+    } else {
+        let bytes = pixels.values().iter().flat_map(|[red, green, blue, _]| [*red, *green, *blue]);
+        RgbImage::from_raw(width, height, bytes.collect()).map(DynamicImage::ImageRgb8)
+    };
+    picture.unwrap_or_default()
+}
