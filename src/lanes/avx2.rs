@@ -116,6 +116,25 @@ impl Simd for Avx2 {
     }
 
     #[inline(always)]
+    fn u_reverse_bits(a: __m256i) -> __m256i {
+        // SAFETY: AVX2 was found.
+        unsafe {
+            // Bytes from last to first, and their halves by tables of four bits reversed.
+            let swap = _mm_setr_epi8(3, 2, 1, 0, 7, 6, 5, 4, 11, 10, 9, 8, 15, 14, 13, 12);
+            let upper = _mm_setr_epi8(
+                0, -128, 64, -64, 32, -96, 96, -32, 16, -112, 80, -48, 48, -80, 112, -16,
+            );
+            let lower = _mm_setr_epi8(0, 8, 4, 12, 2, 10, 6, 14, 1, 9, 5, 13, 3, 11, 7, 15);
+            let [swap, upper, lower] = [swap, upper, lower].map(|x| _mm256_broadcastsi128_si256(x));
+            let swapped = _mm256_shuffle_epi8(a, swap);
+            let half = _mm256_set1_epi8(0x0F);
+            let low = _mm256_and_si256(swapped, half);
+            let high = _mm256_and_si256(_mm256_srli_epi16::<4>(swapped), half);
+            _mm256_or_si256(_mm256_shuffle_epi8(upper, low), _mm256_shuffle_epi8(lower, high))
+        }
+    }
+
+    #[inline(always)]
     fn u_select(mask: __m256, yes: __m256i, no: __m256i) -> __m256i {
         // SAFETY: AVX2 was found.
         unsafe { _mm256_blendv_epi8(no, yes, _mm256_castps_si256(mask)) }

@@ -135,6 +135,7 @@ mod tests {
                 words.mul_high(words).store(),
                 (words * words).store(),
                 words.shr_signed(7).store(),
+                words.reverse_bits().store(),
                 (words >> (words & U32x8::splat(63))).store(),
                 (words << (words & U32x8::splat(63))).store(),
                 [u32::from((x.le(sin) & !x.eq(cos)).bits()); 8],

@@ -80,6 +80,8 @@ pub trait Simd: Copy + Send + Sync + 'static {
     fn u_shr_each(a: Self::U, by: Self::U) -> Self::U;
     /// The sign is shifted in.
     fn u_shr_signed(a: Self::U, by: u32) -> Self::U;
+    /// The lowest bit becomes the highest.
+    fn u_reverse_bits(a: Self::U) -> Self::U;
     fn u_eq(a: Self::U, b: Self::U) -> Self::M;
     fn u_select(mask: Self::M, yes: Self::U, no: Self::U) -> Self::U;
     fn u_as_floats(a: Self::U) -> Self::F;
@@ -341,6 +343,12 @@ impl<S: Simd> U32x8<S> {
     #[inline(always)]
     pub fn eq(self, other: U32x8<S>) -> Mask8<S> {
         Mask8(S::u_eq(self.0, other.0))
+    }
+
+    /// The lowest bit becomes the highest.
+    #[inline(always)]
+    pub fn reverse_bits(self) -> U32x8<S> {
+        U32x8(S::u_reverse_bits(self.0))
     }
 
     /// Of numbers less than 2³¹ apart, whether this one is less.

@@ -92,6 +92,7 @@ impl Simd for Plain {
         u_shr_signed(a: U, by: u32) -> U = map(a, |a| (a as i32 >> by) as u32);
         u_shl_each(a: U, by: U) -> U = map2(a, by, |a, by| a.checked_shl(by).unwrap_or(0));
         u_shr_each(a: U, by: U) -> U = map2(a, by, |a, by| a.checked_shr(by).unwrap_or(0));
+        u_reverse_bits(a: U) -> U = map(a, u32::reverse_bits);
         u_eq(a: U, b: U) -> U = map2(a, b, |a, b| answer(a == b));
         u_as_floats(a: U) -> F = map(a, f32::from_bits);
         i32_to_f(a: U) -> F = map(a, |a| a as i32 as f32);

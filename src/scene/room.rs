@@ -16,9 +16,9 @@ pub struct Room {
     /// Share of the light that surfaces throw at each other, 0 to 1.
     pub bounce: f64,
     /// From the horizon, from 30° above it, and from straight above.
-    sky: [Rgb; 3],
+    pub sky: [Rgb; 3],
     /// By the upward part of a normal, from −1 to 1 in equal steps.
-    daylight: Vec<Daylight>,
+    pub daylight: Vec<Daylight>,
 }
 
 /// A rectangle that faces the board's middle and lights everything alike, near or far. Only
@@ -27,12 +27,12 @@ pub struct Room {
 pub struct Softbox {
     /// What it gives a surface that faces it, as a share of what is then seen on white.
     pub color: Rgb,
-    center: DVec3,
+    pub center: DVec3,
     /// Along its sides, each as long as half of one.
-    half: [DVec3; 2],
-    normal: DVec3,
+    pub half: [DVec3; 2],
+    pub normal: DVec3,
     /// What a mirror sees in it.
-    radiance: Rgb,
+    pub radiance: Rgb,
 }
 
 /// What the sky gives a surface.

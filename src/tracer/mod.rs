@@ -9,6 +9,7 @@ mod cells;
 mod exposure;
 mod eye;
 mod footprint;
+mod lights;
 mod materials;
 mod optics;
 pub mod oracle;
@@ -19,6 +20,7 @@ mod plane;
 mod sampling;
 mod sequence;
 mod shelf;
+mod studio;
 mod tone;
 mod world;
 
@@ -30,6 +32,7 @@ use crate::scene::Scene;
 use exposure::Exposure;
 use phong::Phong;
 use shelf::Shelf;
+use studio::Studio;
 use world::World;
 
 /// How many rays a picture took, by kind.
@@ -84,7 +87,7 @@ pub fn render(
         }
         Some(room) => {
             let exposure = Exposure::new(scene, mode);
-            let eye = oracle::Studio::new(scene, room, size, exposure.across());
+            let eye = Studio::new(World::new(scene, &shelf), room, size, exposure.across());
             exposure.take(&eye, size)
         }
     };

@@ -16,44 +16,10 @@ use crate::tracer::RayCounts;
 use crate::tracer::exposure::{Glimpse, LENS, PLACE, Sample};
 use crate::tracer::eye::Eye;
 use crate::tracer::sequence::Sequence;
-
-/// How much of its light a ground under a coat throws back, of what its colour says.
-const GROUND: f64 = 0.9;
-
-/// What is seen at second hand is lit by all softboxes, but asks for shadows only where it counts as
-/// much as this in the pixel.
-const SHADOWS_FROM: f64 = 0.06;
-
-/// Of the sky that a surface seen at second hand faces, so much is taken to be free.
-const FREE_SKY: f64 = 0.75;
-
-/// Rays in a mirror are followed when they count as much as this; fainter ones see the room.
-const MIRRORS_FROM: f64 = 0.02;
-
-/// What has no end melts into the background, from the first of these distances from the board to
-/// the second.
-const MELTS: [f64; 2] = [35.0, 190.0];
-
-/// No light is brighter in the mirror image of a mirror.
-const BRIGHTEST_IN_A_MIRROR: f64 = 1.0;
-
-/// What is farther than this, in world units, hides no sky; so what moves changes nothing far away.
-const HIDES: f64 = 16.0;
-
-/// The colour of the ground that far away.
-const FAR_GROUND: Rgb = Rgb::splat(0.2);
-
-/// What is seen through glass where the ground is transparent, as pictures store it.
-const PAPER: Rgb = Rgb::splat(0.8);
-
-/// What numbers are for.
-mod purpose {
-    pub const SKY: u32 = 2;
-    pub const MIRROR: u32 = 3;
-    pub const SOFTBOX: u32 = 8;
-    /// Between the numbers of one reflection and the next.
-    pub const STEP: u32 = 256;
-}
+use crate::tracer::studio::{
+    BRIGHTEST_IN_A_MIRROR, FAR_GROUND, FREE_SKY, GROUND, HIDES, MELTS, MIRRORS_FROM, PAPER,
+    SHADOWS_FROM, purpose,
+};
 
 /// The studio's eye on a world, for a picture of a size.
 pub struct Studio<'a> {
@@ -96,7 +62,7 @@ struct Meeting<'a> {
 impl<'a> Studio<'a> {
     /// For samples as wide as a pixel over `across`.
     pub fn new(scene: &'a Scene, room: &'a Room, size: [u32; 2], across: f64) -> Studio<'a> {
-        let background = linear_light(scene.background.unwrap_or(PAPER));
+        let background = linear_light(scene.background.unwrap_or(Rgb::splat(PAPER)));
         Studio { world: World { scene }, room, size, across, background }
     }
 
@@ -220,7 +186,7 @@ impl<'a> Studio<'a> {
         let way = Ray { origin: meeting.leaving, direction };
         match self.world.nearest(&way, HIDES) {
             None if direction.y > 0.0 => sky.brightness,
-            None => FAR_GROUND * self.room.bounce,
+            None => Rgb::splat(FAR_GROUND) * self.room.bounce,
             Some((index, hit)) => {
                 let object = &self.world.scene.objects[index];
                 let (material, _) = object.material(way.at(hit.t), hit.normal);

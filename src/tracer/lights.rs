@@ -1,0 +1,157 @@
+//! The studio's room for packets: softboxes and the sky. (The formulas and their sources stand in
+//! [`Room`].)
+
+use std::f32::consts::SQRT_2;
+
+use glam::Vec3;
+
+use crate::lanes::{F32x8, Mask8, Simd, U32x8, Vec3x8, math};
+use crate::scene::{Room, Softbox};
+
+/// A room in f32.
+pub struct Lights {
+    pub boxes: Vec<LightBox>,
+    /// Share of the light that surfaces throw at each other, 0 to 1.
+    pub bounce: f32,
+    /// From the horizon, from 30° above it, and from straight above.
+    sky: [Vec3; 3],
+    /// By the upward part of a normal, from −1 to 1 in equal steps: brightness in three columns, and share.
+    daylight: [Vec<f32>; 4],
+}
+
+/// A softbox.
+pub struct LightBox {
+    /// What it gives a surface that faces it.
+    pub color: Vec3,
+    center: Vec3,
+    half: [Vec3; 2],
+    /// Of its sides' halves.
+    lengths: [f32; 2],
+    normal: Vec3,
+    radiance: Vec3,
+}
+
+impl Lights {
+    pub fn new(room: &Room) -> Lights {
+        let column = |part: fn(Vec3) -> f32| {
+            room.daylight.iter().map(|step| part(step.brightness.as_vec3())).collect()
+        };
+        Lights {
+            boxes: room.softboxes.iter().map(LightBox::new).collect(),
+            bounce: room.bounce as f32,
+            sky: room.sky.map(|color| color.as_vec3()),
+            daylight: [
+                column(|color| color.x),
+                column(|color| color.y),
+                column(|color| color.z),
+                room.daylight.iter().map(|step| step.share as f32).collect(),
+            ],
+        }
+    }
+
+    /// What the sky gives surfaces with `normal`: mean brightness, and its share of all that they face.
+    #[inline(always)]
+    pub fn daylight<S: Simd>(&self, normal: Vec3x8<S>) -> (Vec3x8<S>, F32x8<S>) {
+        let steps = (self.daylight[0].len() - 1) as f32;
+        let upward = normal.y.clamp(-1.0, 1.0) + F32x8::splat(1.0);
+        let place = upward * F32x8::splat(steps / 2.0);
+        let below = place.floor().min(F32x8::splat(steps - 1.0));
+        let (share, index) = (place - below, below.to_i32());
+        let between = |column: &Vec<f32>| {
+            let low = F32x8::gather(column, index);
+            low.lerp(F32x8::gather(column, index + U32x8::splat(1)), share)
+        };
+        let [red, green, blue, part] = &self.daylight;
+        (Vec3x8::new(between(red), between(green), between(blue)), between(part))
+    }
+
+    /// What mirrors at `point` see along `direction` (of length 1) when nothing stands in the way, blurred as by
+    /// a `roughness` of 0 to 1.
+    #[inline(always)]
+    pub fn radiance<S: Simd>(
+        &self,
+        point: Vec3x8<S>,
+        direction: Vec3x8<S>,
+        roughness: F32x8<S>,
+        lanes: Mask8<S>,
+    ) -> Vec3x8<S> {
+        let mut sum = self.sky(direction.y);
+        for light in &self.boxes {
+            sum += light.seen(point, direction, roughness, lanes);
+        }
+        sum
+    }
+
+    /// The sky in directions with the upward parts `upward`, −1 to 1.
+    #[inline(always)]
+    fn sky<S: Simd>(&self, upward: F32x8<S>) -> Vec3x8<S> {
+        let [horizon, middle, zenith] = self.sky.map(Vec3x8::splat);
+        let (one, two) = (F32x8::splat(1.0), F32x8::splat(2.0));
+        let low = horizon.lerp(middle, two * upward);
+        let high = middle.lerp(zenith, two * upward - one);
+        let above = Vec3x8::select(upward.lt(F32x8::splat(0.5)), low, high);
+        let below = horizon * (one + upward);
+        Vec3x8::select(upward.lt(F32x8::splat(0.0)), below, above)
+    }
+}
+
+impl LightBox {
+    fn new(softbox: &Softbox) -> LightBox {
+        let half = softbox.half.map(|side| side.as_vec3());
+        LightBox {
+            color: softbox.color.as_vec3(),
+            center: softbox.center.as_vec3(),
+            half,
+            lengths: softbox.half.map(|side| side.length() as f32),
+            normal: softbox.normal.as_vec3(),
+            radiance: softbox.radiance.as_vec3(),
+        }
+    }
+
+    /// The points of it at (`across`, `along`), each 0 to 1.
+    #[inline(always)]
+    pub fn points<S: Simd>(&self, (across, along): (F32x8<S>, F32x8<S>)) -> Vec3x8<S> {
+        let (one, two) = (F32x8::splat(1.0), F32x8::splat(2.0));
+        let [wide, tall] = self.half.map(Vec3x8::splat);
+        Vec3x8::splat(self.center) + wide * (two * across - one) + tall * (two * along - one)
+    }
+
+    /// What mirrors see in it.
+    #[inline(always)]
+    fn seen<S: Simd>(
+        &self,
+        point: Vec3x8<S>,
+        direction: Vec3x8<S>,
+        roughness: F32x8<S>,
+        lanes: Mask8<S>,
+    ) -> Vec3x8<S> {
+        let zero = F32x8::splat(0.0);
+        let normal = Vec3x8::splat(self.normal);
+        let center = Vec3x8::splat(self.center);
+        let towards = -direction.dot(normal);
+        let distance = (point - center).dot(normal) / towards;
+        let met = point + direction * distance - center;
+        // Its edges are never sharper than a hair, so that they need few samples.
+        let blur = distance * roughness.max(F32x8::splat(0.01)) * F32x8::splat(SQRT_2);
+        let four = F32x8::splat(4.0);
+        let places = [0, 1].map(|side| {
+            met.dot(Vec3x8::splat(self.half[side])) * F32x8::splat(1.0 / self.lengths[side])
+        });
+        let mut near = lanes & towards.gt(zero) & distance.gt(zero);
+        for side in 0..2 {
+            // Farther off there is less than a picture can show.
+            let reach = F32x8::splat(self.lengths[side]) + four * blur;
+            near = near & places[side].abs().le(reach);
+        }
+        if self.radiance == Vec3::ZERO || !near.any() {
+            return Vec3x8::zero();
+        }
+        let scale = blur.recip();
+        let filled = |side: usize| {
+            let length = F32x8::splat(self.lengths[side]);
+            let (low, high) = ((length - places[side]) * scale, (length + places[side]) * scale);
+            (math::erf(low) + math::erf(high)) * F32x8::splat(0.5)
+        };
+        Vec3x8::splat(self.radiance) * near.keep(filled(0) * filled(1))
+    }
+}
