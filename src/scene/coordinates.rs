@@ -4,14 +4,14 @@
 use glam::{DVec2, Vec3Swizzles};
 
 use super::Camera;
-use super::glyphs::{self, REACH};
+use super::glyphs::{self, REACH, Stroke};
 use super::measures::{FRAME, HALF, MIDDLE, SQUARE};
 
 /// The height of a digit in world units, from middle to middle of its strokes.
-const SIZE: f64 = 0.39 * FRAME;
+pub const SIZE: f64 = 0.39 * FRAME;
 
 /// How far from the squares their middles are: a moulding leaves less than the whole frame flat.
-const WITHIN: f64 = 0.38 * FRAME;
+pub const WITHIN: f64 = 0.38 * FRAME;
 
 /// Which height of letters and digits stands in the middle of the frame, in their own unit: the
 /// bowls of letters weigh more than their stems and tails.
@@ -32,6 +32,8 @@ pub enum Side {
 }
 
 impl Side {
+    pub const ALL: [Side; 4] = [Side::White, Side::Kingside, Side::Black, Side::Queenside];
+
     /// The side that is at the bottom of what `camera` sees.
     pub fn near(camera: &Camera) -> Side {
         let right = camera.axes()[0];
@@ -83,39 +85,70 @@ impl Readers {
     }
 }
 
+/// What is written beside a square.
+pub struct Label {
+    /// Its middle, from the board's.
+    middle: DVec2,
+    /// The side that its reader has before him.
+    near: Side,
+    strokes: &'static [Stroke],
+    /// Which height of it is in the middle.
+    height: f64,
+}
+
+impl Label {
+    /// The label at the `side` of the board beside a square, 0 to 7, if there is one.
+    pub fn new(readers: Readers, side: Side, number: usize) -> Option<Label> {
+        let near = readers.of(side)?;
+        let beside = (number as f64 + 0.5) * SQUARE - HALF;
+        let within = HALF + WITHIN;
+        let middle = match side {
+            Side::White => DVec2::new(beside, -within),
+            Side::Black => DVec2::new(beside, within),
+            Side::Kingside => DVec2::new(within, beside),
+            Side::Queenside => DVec2::new(-within, beside),
+        };
+        let (strokes, height) = match side {
+            Side::White | Side::Black => (glyphs::letter(number), LETTERS_MIDDLE),
+            Side::Kingside | Side::Queenside => (glyphs::digit(number), DIGITS_MIDDLE),
+        };
+        Some(Label { middle, near, strokes, height })
+    }
+
+    /// A place, from the board's middle, as its glyph is drawn.
+    pub fn point(&self, place: DVec2) -> DVec2 {
+        self.near.seen(place - self.middle) / SIZE + DVec2::Y * self.height
+    }
+
+    /// The strokes of its glyph.
+    pub fn strokes(&self) -> &'static [Stroke] {
+        self.strokes
+    }
+}
+
 /// How much ink there is at the place (`x`, `z`) of the frame's top, 0 to 1, where a width of `seen` world
 /// units is seen at once.
 pub fn ink(x: f64, z: f64, readers: Readers, seen: f64) -> f64 {
     let place = DVec2::new(x, z) - MIDDLE.xz();
-    // On which side's part of the frame, how far along, and whether files are named there.
-    let (side, along, is_file) = match (place.x.abs() > HALF, place.y.abs() > HALF) {
-        (false, true) if place.y < 0.0 => (Side::White, place.x, true),
-        (false, true) => (Side::Black, place.x, true),
-        (true, false) if place.x < 0.0 => (Side::Queenside, place.y, false),
-        (true, false) => (Side::Kingside, place.y, false),
+    // On which side's part of the frame, and how far along.
+    let (side, along) = match (place.x.abs() > HALF, place.y.abs() > HALF) {
+        (false, true) if place.y < 0.0 => (Side::White, place.x),
+        (false, true) => (Side::Black, place.x),
+        (true, false) if place.x < 0.0 => (Side::Queenside, place.y),
+        (true, false) => (Side::Kingside, place.y),
         _ => return 0.0,
     };
-    let Some(near) = readers.of(side) else {
+    let number = ((along + HALF) / SQUARE).floor().clamp(0.0, 7.0);
+    let Some(label) = Label::new(readers, side, number as usize) else {
         return 0.0;
     };
-    let number = ((along + HALF) / SQUARE).floor().clamp(0.0, 7.0);
-    let beside = (number + 0.5) * SQUARE - HALF;
-    let within = HALF + WITHIN;
-    let label = match side {
-        Side::White => DVec2::new(beside, -within),
-        Side::Black => DVec2::new(beside, within),
-        Side::Kingside => DVec2::new(within, beside),
-        Side::Queenside => DVec2::new(-within, beside),
-    };
-    let middle = if is_file { LETTERS_MIDDLE } else { DIGITS_MIDDLE };
-    let point = near.seen(place - label) / SIZE + DVec2::Y * middle;
+    let point = label.point(place);
     let [aside, below, above] = REACH;
     let blur = seen / SIZE / 2.0;
     if point.x.abs() > aside + blur || point.y < -below - blur || point.y > above + blur {
         return 0.0;
     }
-    let glyph = if is_file { glyphs::letter } else { glyphs::digit };
-    let outside = glyph(number as usize, point) * SIZE;
+    let outside = glyphs::outside(label.strokes, point) * SIZE;
     // As if an edge ran straight through what is seen.
     (0.5 - outside / seen.max(f64::MIN_POSITIVE)).clamp(0.0, 1.0)
 }

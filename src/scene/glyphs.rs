@@ -16,7 +16,7 @@ pub const REACH: [f64; 3] = [0.31 + PEN, 0.34 + PEN, 1.0 + PEN];
 
 /// One stroke of the pen.
 #[derive(Clone, Copy)]
-enum Stroke {
+pub enum Stroke {
     /// From one point straight to another.
     Line(DVec2, DVec2),
     /// About a centre with a radius, between two angles in degrees, anticlockwise from the right.
@@ -76,18 +76,19 @@ const DIGITS: [&[Stroke]; 8] = [
     &[arc([0.0, 0.765], 0.235, [0.0, 360.0]), arc([0.0, 0.265], 0.265, [0.0, 360.0])],
 ];
 
-/// How far `point` lies outside the ink of a file's letter, 0 (a) to 7 (h).
-pub fn letter(file: usize, point: DVec2) -> f64 {
-    outside(LETTERS[file], point)
+/// The strokes of a file's letter, 0 (a) to 7 (h).
+pub fn letter(file: usize) -> &'static [Stroke] {
+    LETTERS[file]
 }
 
-/// How far `point` lies outside the ink of a rank's digit, 0 (1) to 7 (8).
-pub fn digit(rank: usize, point: DVec2) -> f64 {
-    outside(DIGITS[rank], point)
+/// The strokes of a rank's digit, 0 (1) to 7 (8).
+pub fn digit(rank: usize) -> &'static [Stroke] {
+    DIGITS[rank]
 }
 
-/// The distance from the nearest stroke's middle, less half of the pen's width.
-fn outside(strokes: &[Stroke], point: DVec2) -> f64 {
+/// How far `point` lies outside the ink of `strokes`: the distance from the nearest one's middle, less half of
+/// the pen's width.
+pub fn outside(strokes: &[Stroke], point: DVec2) -> f64 {
     let distances = strokes.iter().map(|stroke| stroke.distance(point));
     distances.fold(f64::INFINITY, f64::min) - PEN
 }
@@ -152,7 +153,7 @@ mod tests {
                     DVec2::new(aside, y),
                 ];
                 for point in border {
-                    let outside = letter(index, point).min(digit(index, point));
+                    let outside = outside(letter(index), point).min(outside(digit(index), point));
                     assert!(outside > -1e-3, "{index} at {point}: {outside}");
                 }
             }
@@ -161,8 +162,8 @@ mod tests {
 
     #[test]
     fn every_glyph_is_another_one_and_most_of_its_place_is_free() {
-        let letters = (0..8).map(|file| raster(|point| letter(file, point)));
-        let digits = (0..8).map(|rank| raster(|point| digit(rank, point)));
+        let letters = (0..8).map(|file| raster(|point| outside(letter(file), point)));
+        let digits = (0..8).map(|rank| raster(|point| outside(digit(rank), point)));
         let glyphs: Vec<Vec<bool>> = letters.chain(digits).collect();
         for (index, glyph) in glyphs.iter().enumerate() {
             let inked = glyph.iter().filter(|inked| **inked).count();
@@ -177,7 +178,7 @@ mod tests {
     /// As somebody saw them who looked: their tall and hanging parts.
     #[test]
     fn stems_stand_and_tails_hang_where_they_should() {
-        let is_inked = |file, x, y| letter(file, DVec2::new(x, y)) < 0.0;
+        let is_inked = |file, x, y| outside(letter(file), DVec2::new(x, y)) < 0.0;
         let left_stem: Vec<usize> = (0..8).filter(|file| is_inked(*file, -0.3, 0.9)).collect();
         let right_stem: Vec<usize> = (0..8).filter(|file| is_inked(*file, 0.3, 0.9)).collect();
         let tail: Vec<usize> = (0..8).filter(|file| is_inked(*file, 0.0, -0.34)).collect();

@@ -2,6 +2,15 @@
 
 use glam::{DVec3, I64Vec3};
 
+/// What the coordinates of a lattice point are multiplied by in its hash.
+pub const AXES: [u64; 3] = [0x9E37_79B9_7F4A_7C15, 0xC2B2_AE3D_27D4_EB4F, 0x1656_67B1_9E37_79F9];
+
+/// What two numbers are multiplied by in their [`hash`].
+pub const PAIR: [u64; 2] = [AXES[0], AXES[1]];
+
+/// What mixes the bits of hashes.
+pub const MIX: u64 = 0xD6E8_FEB8_6659_FD93;
+
 /// Noise at `point`: smooth, 0 at whole-numbered points, within −1 to 1, mean 0.
 pub fn perlin(point: DVec3) -> f64 {
     let cell = point.floor();
@@ -30,22 +39,22 @@ pub fn fractal(point: DVec3, octaves: u32) -> f64 {
 
 /// Whole numbers, mixed.
 pub fn hash(a: u64, b: u64) -> u64 {
-    let mut hash = a.wrapping_mul(0x9E37_79B9_7F4A_7C15)
-        ^ b.wrapping_mul(0xC2B2_AE3D_27D4_EB4F).rotate_left(17);
+    let mut hash = a.wrapping_mul(PAIR[0]) ^ b.wrapping_mul(PAIR[1]).rotate_left(17);
     for _ in 0..2 {
         hash ^= hash >> 32;
-        hash = hash.wrapping_mul(0xD6E8_FEB8_6659_FD93);
+        hash = hash.wrapping_mul(MIX);
     }
     hash ^ hash >> 32
 }
 
 /// One of the twelve directions to the middles of a cube's edges, by a hash of the lattice point.
 fn gradient(point: I64Vec3) -> DVec3 {
-    let mut hash = (point.x as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15)
-        ^ (point.y as u64).wrapping_mul(0xC2B2_AE3D_27D4_EB4F)
-        ^ (point.z as u64).wrapping_mul(0x1656_67B1_9E37_79F9);
+    let [x, y, z] = point.to_array();
+    let mut hash = (x as u64).wrapping_mul(AXES[0])
+        ^ (y as u64).wrapping_mul(AXES[1])
+        ^ (z as u64).wrapping_mul(AXES[2]);
     hash ^= hash >> 32;
-    hash = hash.wrapping_mul(0xD6E8_FEB8_6659_FD93);
+    hash = hash.wrapping_mul(MIX);
     hash ^= hash >> 32;
     let sign = |bit: u64| if hash & bit == 0 { 1.0 } else { -1.0 };
     match (hash >> 8) % 3 {

@@ -81,8 +81,8 @@ impl Texture {
                 ground.color(place, seen).lerp(*ink, cover)
             }
             Texture::Marble { colors, noise } => {
-                let block = DVec3::new(7.1, 3.3, 5.7) * (seed % 1024) as f64;
-                colors[0].lerp(colors[1], marble(point / noise.size + block, noise.octaves))
+                let point = point / noise.size + block(seed);
+                colors[0].lerp(colors[1], marble(point, noise.octaves))
             }
             Texture::Bitmap { bitmap, mapping, filter, linear } => {
                 let (place, scale) = mapping.place(point);
@@ -134,17 +134,34 @@ fn lengthways(point: DVec3, grain: Axis) -> DVec3 {
     }
 }
 
+/// How noise is stretched in wood, which changes more slowly along the grain, z.
+pub const WOOD_STRETCH: DVec3 = DVec3::new(1.0, 1.0, 0.05);
+
+/// How many rings a unit of noise stands for.
+pub const RINGS: f64 = 20.0;
+
 /// Where in its ring a point of a log lies, 0 to 1: twenty rings a unit of noise, which changes
 /// twenty times more slowly along the grain, z (Turek 2008, 3.7.7). The thesis casts to an integer
 /// and so jumps where the noise is negative; the floor does not.
 fn wood(point: DVec3, octaves: u32) -> f64 {
-    let bumps = fractal(DVec3::new(point.x, point.y, point.z * 0.05), octaves) * 20.0;
+    let bumps = fractal(point * WOOD_STRETCH, octaves) * RINGS;
     bumps - bumps.floor()
+}
+
+/// Across the sheets of marble, as long as there is one sheet a unit.
+pub const SHEETS: DVec3 = DVec3::new(0.6, 0.7, 0.4);
+
+/// How far noise bends sheets.
+pub const BEND: f64 = 2.2;
+
+/// Where the block that `seed` stands for lies in its rock.
+pub fn block(seed: u64) -> DVec3 {
+    DVec3::new(7.1, 3.3, 5.7) * (seed % 1024) as f64
 }
 
 /// How much of a vein a point lies in, 0 to 1: parallel sheets, bent by noise, and thin.
 fn marble(point: DVec3, octaves: u32) -> f64 {
-    let bent = point.dot(DVec3::new(0.6, 0.7, 0.4)) + 2.2 * fractal(point, octaves);
+    let bent = point.dot(SHEETS) + BEND * fractal(point, octaves);
     let wave = libm::sin(PI * bent).abs();
     (1.0 - wave) * (1.0 - wave)
 }

@@ -7,37 +7,71 @@ use glam::{DVec2, DVec3};
 use super::noise::{hash, perlin};
 
 /// How far a tree leans from the grain's direction: boards then show long arches.
-const LEAN: f64 = 0.05;
+pub const LEAN: f64 = 0.05;
 
 /// Means of the parts of [`shade`], which they fade to where they are too fine to be seen.
-const RING_MEAN: f64 = 0.16;
+pub const RING_MEAN: f64 = 0.16;
+
+/// What is noise in timber: how far it stretches across the grain and along it, and how strong it is.
+type Wind = ([f64; 2], f64);
+
+/// What bends rings.
+pub const BENDS: [Wind; 2] = [([10.0, 90.0], 1.6), ([2.3, 40.0], 0.4)];
+pub const FIBRES: Wind = ([0.19, 9.0], 0.26);
+/// What changes slowly.
+pub const DRIFT: Wind = ([6.0, 50.0], 0.24);
+
+/// How wide patterns are where they fade.
+pub const RING_WIDTH: f64 = 1.0;
+pub const FIBRE_WIDTH: f64 = 0.3;
+
+/// Where dark late wood ends in its ring, and how wide the end is.
+pub const LATE: [f64; 2] = [0.86, 0.14];
+
+/// What is a tree's own.
+pub struct Tree {
+    /// From its heart to the wood that is seen.
+    pub heart: DVec2,
+    /// Where along the grain it lies in the noise: trees have nothing in common.
+    pub along: f64,
+    /// How much darker than others it is.
+    pub tone: f64,
+}
+
+impl Tree {
+    pub fn new(seed: u64) -> Tree {
+        let [angle, distance, along, tone] = [1, 2, 3, 4].map(|step| share(hash(seed, step)));
+        let (sin, cos) = libm::sincos(TAU * angle);
+        Tree {
+            heart: DVec2::new(cos, sin) * (9.0 + 22.0 * distance),
+            along: 4000.0 * along,
+            tone: 0.3 * (tone - 0.5),
+        }
+    }
+}
 
 /// How dark the wood is at `point` (z along the grain, in widths of a ring), 0 to 1 and about
 /// [`MEAN`] on the whole. Every `seed` is another tree; `seen` widths of a ring are seen at once,
 /// and what is finer fades.
 pub fn shade(point: DVec3, seed: u64, seen: f64) -> f64 {
-    let [angle, distance, shift, tone] = [1, 2, 3, 4].map(|step| share(hash(seed, step)));
-    let (sin, cos) = libm::sincos(TAU * angle);
-    let heart = DVec2::new(cos, sin) * (9.0 + 22.0 * distance);
-    // Trees have nothing in common: each lies elsewhere in the noise.
-    let along = point.z + 4000.0 * shift;
-    let (rings_left, fibres_left) = (visible(seen, 1.0), visible(seen, 0.3));
-    let wind = |across: f64, length: f64| {
-        perlin(DVec3::new(point.x / across, point.y / across, along / length))
+    let tree = Tree::new(seed);
+    let along = point.z + tree.along;
+    let (rings_left, fibres_left) = (visible(seen, RING_WIDTH), visible(seen, FIBRE_WIDTH));
+    let wind = |([across, length], strength): Wind| {
+        strength * perlin(DVec3::new(point.x / across, point.y / across, along / length))
     };
-    let across = point.truncate() + heart + DVec2::new(LEAN * point.z, 0.0);
-    let radius = across.length() + 1.6 * wind(10.0, 90.0) + 0.4 * wind(2.3, 40.0);
+    let across = point.truncate() + tree.heart + DVec2::new(LEAN * point.z, 0.0);
+    let radius = across.length() + wind(BENDS[0]) + wind(BENDS[1]);
     let ring = radius.floor();
     // Early wood turns slowly into dark late wood, which ends at once.
     let t = radius - ring;
-    let late = t * t * (1.0 - smooth((t - 0.86) / 0.14));
+    let late = t * t * (1.0 - smooth((t - LATE[0]) / LATE[1]));
     // Good years and bad ones, and now and then a very dark line.
     let year = share(hash(seed, ring as i64 as u64));
     let year = 0.2 + 0.55 * year + 0.65 * year * year * year * year;
     let rings = (late * year - RING_MEAN) * rings_left;
-    let fibres = if fibres_left > 0.0 { 0.26 * wind(0.19, 9.0) * fibres_left } else { 0.0 };
-    let drift = 0.24 * wind(6.0, 50.0);
-    (MEAN + rings + fibres + drift + 0.3 * (tone - 0.5)).clamp(0.0, 1.0)
+    let fibres = if fibres_left > 0.0 { wind(FIBRES) * fibres_left } else { 0.0 };
+    (MEAN + rings + fibres + wind(DRIFT) + tree.tone).clamp(0.0, 1.0)
 }
 
 /// The mean of [`shade`].

@@ -3,7 +3,7 @@
 //! Lengths are in squares; (0, 0) is the middle of a1, x goes to the h-file and y to rank 8.
 
 mod arrow;
-mod shape;
+pub(crate) mod shape;
 
 use std::sync::Arc;
 
@@ -22,7 +22,7 @@ use shape::Shape;
 const FOOT: f64 = 0.37;
 
 /// How far below the board's surface its top may seem to be, in world units.
-const TOP: f64 = 1e-4;
+pub const TOP: f64 = 1e-4;
 
 /// No point of a square is farther from its middle.
 const HALF_DIAGONAL: f64 = 0.71;
@@ -44,11 +44,11 @@ pub struct Painting {
 
 /// One shape in one colour.
 #[derive(Clone, Debug)]
-struct Layer {
-    shape: Shape,
-    color: Rgb,
+pub struct Layer {
+    pub shape: Shape,
+    pub color: Rgb,
     /// Share of the colour where it covers, 0 to 1.
-    opacity: f64,
+    pub opacity: f64,
 }
 
 impl Painting {
@@ -60,6 +60,11 @@ impl Painting {
         };
         let on = std::array::from_fn(|index| reaching(Square::new(index as u32)));
         Painting { layers, on }
+    }
+
+    /// By square, a1, b1, … h8: the layers that reach it, the lowest first.
+    pub fn squares(&self) -> impl Iterator<Item = impl Iterator<Item = &Layer>> {
+        self.on.iter().map(|layers| layers.iter().map(|index| &self.layers[*index]))
     }
 
     /// The colour at a `point` of the board, of the colour `ground` before, where a width of `seen`
@@ -88,7 +93,7 @@ pub struct Paints {
 }
 
 impl Paints {
-    pub fn new(materials: &Materials) -> Paints {
+    pub(super) fn new(materials: &Materials) -> Paints {
         let mut settings = materials.config.marks;
         let config::Marks {
             last_move_color,
