@@ -5,6 +5,7 @@ use glam::{DVec3, Vec3};
 use super::eye::Eye;
 use super::pixel::{Pixel, Stored};
 use super::plane::{Plane, Spot};
+use super::silhouette::Silhouette;
 use super::{Antialiasing, RayCounts, tone};
 use crate::scene::{Rgb, Scene, linear_light};
 
@@ -120,20 +121,25 @@ impl Exposure {
     pub fn take(
         &self,
         eye: &impl Eye<Sample = Sample, Seen = Glimpse>,
+        silhouette: &Silhouette,
         [width, height]: [u32; 2],
     ) -> (Plane<Stored>, RayCounts) {
-        let mut looks = Plane::new(width, height, Sum::default());
+        let mut nothing = Sum::default();
+        (0..self.few).for_each(|_| nothing.add(Glimpse::default(), self.behind));
+        let mut looks = Plane::new(width, height, nothing);
+        let skipped = silhouette.empty([width, height]) * u64::from(self.few);
+        let skipped = RayCounts { primary: skipped, ..RayCounts::default() };
         let first = looks.fill(
-            |_| true,
+            |spot| silhouette.may_show(spot),
             |spots, made| {
                 made.resize(spots.len(), Sum::default());
                 let some: Vec<usize> = (0..spots.len()).collect();
                 self.add(eye, spots, &some, |_| self.few, made)
             },
         );
-        let mut picture = Plane::new(width, height, Stored::default());
+        let mut picture = Plane::new(width, height, self.developed(&nothing).stored());
         let more = picture.fill(
-            |_| true,
+            |spot| silhouette.may_show(spot),
             |spots, made| {
                 let mut sums: Vec<Sum> = spots.iter().map(|spot| looks.at(*spot)).collect();
                 let counts = self.refine(eye, spots, &looks, &mut sums);
@@ -141,7 +147,7 @@ impl Exposure {
                 counts
             },
         );
-        (picture, first + more)
+        (picture, skipped + first + more)
     }
 
     /// Adds samples to pixels until their errors are small enough. If the first few of one are all the same,

@@ -24,6 +24,11 @@ const NORMAL_SCALE: f32 = 8.0;
 const PRIME: u32 = 0x0100_0193;
 
 impl Footprint {
+    /// Of a ray from the camera that meets nothing.
+    pub fn of_nothing() -> Footprint {
+        Footprint::new(&[None], Vec3::ZERO, Vec3::ZERO, Vec3::ZERO)
+    }
+
     /// What was met, in this order, and the sums over it.
     pub fn new(met: &[Option<usize>], normal: Vec3, color: Vec3, light: Vec3) -> Footprint {
         let number = |met: &Option<usize>| met.map_or(0, |body| body as u32 + 1);

@@ -20,6 +20,7 @@ mod plane;
 mod sampling;
 mod sequence;
 mod shelf;
+mod silhouette;
 mod studio;
 mod tone;
 mod world;
@@ -32,6 +33,7 @@ use crate::scene::Scene;
 use exposure::Exposure;
 use phong::Phong;
 use shelf::Shelf;
+use silhouette::Silhouette;
 use studio::Studio;
 use world::World;
 
@@ -83,12 +85,12 @@ pub fn render(
     let (pixels, counts) = match &scene.room {
         None => {
             let eye = Phong::new(World::new(scene, &shelf), size);
-            sampling::render(&eye, is_transparent, size, mode)
+            sampling::render(&eye, scene, size, mode)
         }
         Some(room) => {
             let exposure = Exposure::new(scene, mode);
             let eye = Studio::new(World::new(scene, &shelf), room, size, exposure.across());
-            exposure.take(&eye, size)
+            exposure.take(&eye, &Silhouette::new(scene, size), size)
         }
     };
     (pixel::picture(&pixels, is_transparent), counts)
@@ -106,12 +108,12 @@ pub fn render_by_oracle(
     let (pixels, counts) = match &scene.room {
         None => {
             let eye = oracle::Phong::new(scene, size);
-            sampling::render(&eye, is_transparent, size, mode)
+            sampling::render(&eye, scene, size, mode)
         }
         Some(room) => {
             let exposure = Exposure::new(scene, mode);
             let eye = oracle::Studio::new(scene, room, size, exposure.across());
-            exposure.take(&eye, size)
+            exposure.take(&eye, &Silhouette::new(scene, size), size)
         }
     };
     (pixel::picture(&pixels, is_transparent), counts)

@@ -3,20 +3,30 @@
 use glam::Vec3;
 
 use super::eye::Eye;
+use super::footprint::Footprint;
 use super::phong::{Place, Seen};
 use super::pixel::{Pixel, Stored};
 use super::plane::{Plane, Spot};
+use super::silhouette::Silhouette;
 use super::{Antialiasing, RayCounts};
+use crate::scene::Scene;
 
-/// Paints a picture through `eye`; what meets nothing is transparent in one that `is_transparent`.
+/// Paints a picture of `scene` through `eye`.
 pub fn render(
     eye: &impl Eye<Sample = Place, Seen = Seen>,
-    is_transparent: bool,
-    [width, height]: [u32; 2],
+    scene: &Scene,
+    size: [u32; 2],
     mode: Antialiasing,
 ) -> (Plane<Stored>, RayCounts) {
-    let mut picture = Plane::new(width, height, Stored::default());
-    let easel = Easel { eye, is_transparent };
+    let background = scene.background.map(|color| color.as_vec3());
+    let nothing = Seen {
+        color: background.unwrap_or(Vec3::ZERO),
+        hits: false,
+        footprint: Footprint::of_nothing(),
+    };
+    let is_transparent = background.is_none();
+    let easel = Easel { eye, silhouette: Silhouette::new(scene, size), is_transparent, nothing };
+    let mut picture = Plane::new(size[0], size[1], easel.pixel(&nothing).stored());
     let counts = match mode {
         Antialiasing::None => easel.grid(&mut picture, 1),
         Antialiasing::Grid(side) => easel.grid(&mut picture, side),
@@ -27,21 +37,29 @@ pub fn render(
 
 struct Easel<'a, E> {
     eye: &'a E,
+    silhouette: Silhouette,
+    /// Whether what meets nothing is transparent.
     is_transparent: bool,
+    /// What is seen where nothing is met.
+    nothing: Seen,
 }
 
 impl<E: Eye<Sample = Place, Seen = Seen>> Easel<'_, E> {
     fn grid(&self, picture: &mut Plane<Stored>, side: u32) -> RayCounts {
-        picture.fill(|_| true, |spots, made| self.means(spots, side, made))
+        let counts = picture.fill(
+            |spot| self.silhouette.may_show(spot),
+            |spots, made| self.means(spots, side, made),
+        );
+        counts + self.skipped(picture, side * side)
     }
 
     fn adaptive(&self, picture: &mut Plane<Stored>, side: u32, threshold: f32) -> RayCounts {
-        let mut looks = Plane::new(picture.width, picture.height, Seen::default());
+        let mut looks = Plane::new(picture.width, picture.height, self.nothing);
         let look = |spots: &[Spot], made: &mut Vec<Seen>| {
             self.eye
                 .see(&spots.iter().map(|spot| place(*spot, [0.5; 2], 1)).collect::<Vec<_>>(), made)
         };
-        let first = looks.fill(|_| true, look);
+        let first = looks.fill(|spot| self.silhouette.may_show(spot), look);
         let differs = |spot: Spot| {
             let here = looks.at(spot);
             looks.round(spot).any(|there| there.footprint.differs(&here.footprint, threshold))
@@ -54,7 +72,13 @@ impl<E: Eye<Sample = Place, Seen = Seen>> Easel<'_, E> {
                 RayCounts::default()
             },
         );
-        first + more
+        first + more + self.skipped(picture, 1)
+    }
+
+    /// The rays that are known to meet nothing, so many a pixel.
+    fn skipped(&self, picture: &Plane<Stored>, rays: u32) -> RayCounts {
+        let empty = self.silhouette.empty([picture.width, picture.height]);
+        RayCounts { primary: empty * u64::from(rays), ..RayCounts::default() }
     }
 
     /// The means over the middles of `side` × `side` parts of pixels.
