@@ -6,7 +6,7 @@ use glam::{DAffine3, DVec2, DVec3};
 use image::RgbImage;
 use lightsquare::config::{Coat, Finish, Light, Pose};
 use lightsquare::geometry::{Cuboid, Placed, Plane, Solid, Sphere};
-use lightsquare::scene::{Camera, Material, Object, Scene, Surface, Texture};
+use lightsquare::scene::{Camera, Cells, Material, Object, Scene, Surface, Texture};
 use lightsquare::tracer::{self, Antialiasing, RayCounts};
 
 const WHITE: DVec3 = DVec3::ONE;
@@ -61,7 +61,7 @@ fn from_above(objects: Vec<Object>) -> Scene {
             z_rot: 0.0,
         }),
         room: None,
-        cells: None,
+        cells: Cells::default(),
         background: Some(DVec3::new(0.0, 0.0, 0.4)),
         max_depth: 5,
         min_weight: 0.0,

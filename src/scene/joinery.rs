@@ -11,7 +11,7 @@ const INLAY: f64 = 0.16;
 
 /// What the parts of a moulded board are made of: each square and each side of the frame from a
 /// piece of its own.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Joinery {
     /// Dark squares, light squares, frame, inlay.
     pub materials: [Material; 4],

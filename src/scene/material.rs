@@ -9,7 +9,7 @@ use crate::config::{Coat, Finish};
 pub type Rgb = DVec3;
 
 /// How a surface answers light, and the colour at each point in the body's own space.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Material {
     /// What counts in Phong's sum; its transparency counts everywhere.
     pub finish: Finish,

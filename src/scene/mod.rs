@@ -35,7 +35,7 @@ pub use mapping::Mapping;
 pub use material::{Material, Rgb};
 pub use materials::MaterialError;
 pub use measures::{HALF, MIDDLE, SQUARE};
-pub use paint::Painting;
+pub use paint::{Painting, repainted};
 pub use room::{Daylight, Room, Softbox};
 pub use stage::{Stage, StageError};
 pub use surface::Surface;
@@ -97,20 +97,44 @@ const HAIR: f64 = 1e-6;
 
 /// A grid in the plane of x and z, of at most 8 × 8 cells, on which bodies stand. It changes nothing in a
 /// picture: what stands in a cell is found sooner.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cells {
     /// The middle of the first cell.
     pub origin: DVec2,
     /// The cells' width.
     pub side: f64,
+    /// How far what stands reaches from the middle of its cell at most; less than half of `side`.
+    pub reach: f64,
+    /// From how low to how high.
+    pub heights: [f64; 2],
+}
+
+/// Cells in which nothing can stand.
+impl Default for Cells {
+    fn default() -> Cells {
+        Cells { origin: DVec2::ZERO, side: 1.0, reach: 0.0, heights: [0.0, 0.0] }
+    }
+}
+
+impl Object {
+    /// Whether both are the same body of the same material, whatever is painted on them.
+    pub fn is_same(&self, other: &Object) -> bool {
+        self.is_same_body(other) && self.surface == other.surface && self.seed == other.seed
+    }
+
+    /// Whether both are the same body in the same place.
+    pub fn is_same_body(&self, other: &Object) -> bool {
+        let (one, another) = (&self.body, &other.body);
+        Arc::ptr_eq(one.shared(), another.shared()) && one.transform() == another.transform()
+    }
 }
 
 /// Everything that a picture depends on, but its size and sampling.
 #[derive(Clone)]
 pub struct Scene {
     pub objects: Vec<Object>,
-    /// Where most of them stand, if there is such a grid.
-    pub cells: Option<Cells>,
+    /// Where most of them stand.
+    pub cells: Cells,
     /// For Phong's sum.
     pub lights: Vec<Light>,
     /// What gives the studio its light; without it, Phong's sum is what is seen.

@@ -10,7 +10,7 @@ use crate::config::{self, Light};
 use crate::geometry::transform::rotation_y;
 
 /// Softboxes, and a sky that grows brighter upwards.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Room {
     pub softboxes: Vec<Softbox>,
     /// Share of the light that surfaces throw at each other, 0 to 1.

@@ -16,8 +16,8 @@ use super::paint::Paints;
 use super::{Camera, Cells, Object, Reach, Readers, Rgb, Room, Scene, Side, Surface, view};
 use crate::assets::Assets;
 use crate::config::{self, Config, Light, Shading, View};
-use crate::geometry::Csg;
 use crate::geometry::transform::{scale, translation};
+use crate::geometry::{Bounds, Csg};
 use crate::notation::{Color, Piece, Square};
 use crate::timeline::{Bodies, Frame, Gaze, Mover, Spot};
 
@@ -28,6 +28,9 @@ const MIN_WEIGHT: f64 = 1.0 / 1024.0;
 /// The felt under a piece. Without it a foot of glass and the square beneath would be the same
 /// plane, and rounding would choose between them pixel by pixel.
 const FELT: f64 = 0.005;
+
+/// Room for rounding round pieces in their cells.
+const MARGIN: f64 = 0.01;
 
 /// How far a camera leans, as a share of the way from the board's middle to what it leans towards.
 const LEAN: f64 = 0.35;
@@ -58,6 +61,7 @@ pub struct Stage {
     facing: Facing,
     background: Option<Rgb>,
     room: Option<Room>,
+    cells: Cells,
     max_depth: u32,
     max_distance: f64,
     snell_index: f64,
@@ -75,7 +79,8 @@ impl Stage {
         let scheme = config.scheme();
         let set = assets.set.clone();
         let bodies = if reach.needs_bodies() { bodies(&set) } else { Bodies::default() };
-        let room = view::Room { man: view::extent(&set), bodies: &bodies };
+        let man = view::extent(&set);
+        let room = view::Room { man, bodies: &bodies };
         let camera = view::camera(config, room, reach);
         let camera = camera.ok_or(StageError::FocusBehind)?;
         let near = Side::near(&camera);
@@ -106,6 +111,7 @@ impl Stage {
             lens: config.camera.clone(),
             background: scheme.background,
             max_depth: config.render.max_depth,
+            cells: cells(man),
             max_distance: config.render.max_distance,
             snell_index: config.snell_index,
         })
@@ -125,7 +131,7 @@ impl Stage {
         fixed.extend(clock);
         Scene {
             objects: fixed.into_iter().chain(standing).chain(loose).collect(),
-            cells: Some(Cells { origin: DVec2::ZERO, side: SQUARE }),
+            cells: self.cells,
             lights: self.lights.clone(),
             camera: self.camera(&frame.gaze),
             background: self.background,
@@ -175,5 +181,18 @@ impl Stage {
         }];
         let seed = if self.room.is_some() { hash(1, identity.to_usize() as u64) } else { 0 };
         Object { seed, ..Object::placed(solid.clone(), place, surface.clone()) }
+    }
+}
+
+/// The squares, as cells for pieces of which each lies within `man`.
+fn cells(man: Bounds) -> Cells {
+    let reach = [man.min.x, man.min.z, man.max.x, man.max.z].map(f64::abs);
+    let reach = reach.into_iter().fold(0.0, f64::max) + MARGIN;
+    Cells {
+        origin: DVec2::ZERO,
+        side: SQUARE,
+        // Wider ones are found without cells.
+        reach: reach.min(SQUARE / 2.0),
+        heights: [man.min.y - MARGIN, man.max.y + FELT + MARGIN],
     }
 }

@@ -7,7 +7,7 @@ use glam::DVec2;
 use super::{Joinery, Material, Place};
 
 /// What a body is made of.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Surface {
     /// One material all over.
     Uniform(Material),

@@ -11,7 +11,7 @@ use crate::assets::{Beyond, Bitmap};
 use crate::config::{self, Axis, Filter};
 
 /// The colour at each point of a body, in the body's own space.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Texture {
     /// One colour everywhere.
     Plain(Rgb),

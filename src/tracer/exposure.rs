@@ -5,7 +5,9 @@ use glam::{DVec3, Vec3};
 use super::eye::Eye;
 use super::pixel::{Pixel, Stored};
 use super::plane::{Plane, Spot};
-use super::silhouette::Silhouette;
+use super::regions::Regions;
+use super::sampling::union;
+use super::sketch::Painter;
 use super::{Antialiasing, RayCounts, tone};
 use crate::scene::{Rgb, Scene, linear_light};
 
@@ -52,8 +54,17 @@ impl Glimpse {
     }
 }
 
+/// Develops what an eye sees.
+pub struct Exposure<E> {
+    eye: E,
+    sizes: Sizes,
+    background: Option<Rgb>,
+    /// How bright the background looks, if there is one.
+    behind: Option<f64>,
+}
+
 /// How many samples pixels get.
-pub struct Exposure {
+pub struct Sizes {
     /// Of a pixel to begin with, of one that is not as simple as it seems, and at most.
     few: u32,
     first: u32,
@@ -61,14 +72,11 @@ pub struct Exposure {
     /// The error of a pixel's mean that is small enough, of what can be shown; negative where none is.
     error: f64,
     has_lens: bool,
-    background: Option<Rgb>,
-    /// How bright the background looks, if there is one.
-    behind: Option<f64>,
 }
 
 /// The samples of a pixel so far.
 #[derive(Clone, Copy, Debug, Default)]
-struct Sum {
+pub struct Sum {
     count: u32,
     light: DVec3,
     cover: f64,
@@ -84,11 +92,11 @@ fn shown(light: DVec3) -> f64 {
     light.dot(DVec3::splat(1.0 / 3.0)).clamp(0.0, 1.0).sqrt()
 }
 
-impl Exposure {
+impl Sizes {
     /// Of a grid the number of rays alone counts; adaptive, a pixel begins with a quarter of them (and
     /// stops before where the first are all the same), and goes on while the error of its mean seems
     /// greater than the threshold.
-    pub fn new(scene: &Scene, mode: Antialiasing) -> Exposure {
+    pub fn new(scene: &Scene, mode: Antialiasing) -> Sizes {
         let (first, most, error) = match mode {
             Antialiasing::None => (1, 1, -1.0),
             Antialiasing::Grid(side) => (side * side, side * side, -1.0),
@@ -100,15 +108,7 @@ impl Exposure {
         };
         let has_lens = scene.camera.has_lens();
         let few = if has_lens { first } else { first / 4 };
-        Exposure {
-            few: few.max(FEWEST).min(most),
-            first,
-            most,
-            error,
-            has_lens,
-            background: scene.background,
-            behind: scene.background.map(|color| shown(linear_light(color))),
-        }
+        Sizes { few: few.max(FEWEST).min(most), first, most, error, has_lens }
     }
 
     /// How many samples side by side make a pixel's width, as far as textures are concerned.
@@ -116,66 +116,8 @@ impl Exposure {
         f64::from(self.first).sqrt().min(4.0)
     }
 
-    /// Paints a picture through `eye`: first a few samples of each pixel, then more of those that need
-    /// them.
-    pub fn take(
-        &self,
-        eye: &impl Eye<Sample = Sample, Seen = Glimpse>,
-        silhouette: &Silhouette,
-        [width, height]: [u32; 2],
-    ) -> (Plane<Stored>, RayCounts) {
-        let mut nothing = Sum::default();
-        (0..self.few).for_each(|_| nothing.add(Glimpse::default(), self.behind));
-        let mut looks = Plane::new(width, height, nothing);
-        let skipped = silhouette.empty([width, height]) * u64::from(self.few);
-        let skipped = RayCounts { primary: skipped, ..RayCounts::default() };
-        let first = looks.fill(
-            |spot| silhouette.may_show(spot),
-            |spots, made| {
-                made.resize(spots.len(), Sum::default());
-                let some: Vec<usize> = (0..spots.len()).collect();
-                self.add(eye, spots, &some, |_| self.few, made)
-            },
-        );
-        let mut picture = Plane::new(width, height, self.developed(&nothing).stored());
-        let more = picture.fill(
-            |spot| silhouette.may_show(spot),
-            |spots, made| {
-                let mut sums: Vec<Sum> = spots.iter().map(|spot| looks.at(*spot)).collect();
-                let counts = self.refine(eye, spots, &looks, &mut sums);
-                made.extend(sums.iter().map(|sum| self.developed(sum).stored()));
-                counts
-            },
-        );
-        (picture, skipped + first + more)
-    }
-
-    /// Adds samples to pixels until their errors are small enough. If the first few of one are all the same,
-    /// and about those of the pixels beside, they are believed.
-    fn refine(
-        &self,
-        eye: &impl Eye<Sample = Sample, Seen = Glimpse>,
-        spots: &[Spot],
-        looks: &Plane<Sum>,
-        sums: &mut [Sum],
-    ) -> RayCounts {
-        let mut counts = RayCounts::default();
-        let differs = |index: usize| {
-            let shown = sums[index].shown();
-            looks.round(spots[index]).any(|there| (there.shown() - shown).abs() > CONTRAST)
-        };
-        let differs: Vec<bool> = (0..spots.len()).map(differs).collect();
-        loop {
-            let wants = |index: &usize| self.wants_more(&sums[*index], differs[*index]);
-            let some: Vec<usize> = (0..spots.len()).filter(wants).collect();
-            if some.is_empty() {
-                return counts;
-            }
-            let wanted = |sum: &Sum| (2 * sum.count).min(self.most);
-            counts = counts + self.add(eye, spots, &some, wanted, sums);
-        }
-    }
-
+    /// Whether a pixel needs more samples. If its first few are all the same, and about those of the pixels
+    /// beside, they are believed.
     fn wants_more(&self, sum: &Sum, differs: bool) -> bool {
         let small_enough = match (sum.count < self.first, self.has_lens) {
             (true, _) if differs => -1.0,
@@ -186,17 +128,25 @@ impl Exposure {
         };
         sum.count < self.most && sum.error() > small_enough
     }
+}
 
-    /// Adds samples to some of the pixels, up to the number that each of them `wanted`.
+impl<E: Eye<Sample = Sample, Seen = Glimpse>> Exposure<E> {
+    pub fn new(eye: E, scene: &Scene, sizes: Sizes) -> Exposure<E> {
+        let behind = scene.background.map(|color| shown(linear_light(color)));
+        Exposure { eye, sizes, background: scene.background, behind }
+    }
+
+    /// Adds samples to some of the pixels, up to the number that each of them `wanted`, and the regions that they
+    /// depend on.
     fn add(
         &self,
-        eye: &impl Eye<Sample = Sample, Seen = Glimpse>,
         spots: &[Spot],
         some: &[usize],
         wanted: impl Fn(&Sum) -> u32,
         sums: &mut [Sum],
+        touched: Option<&mut [Regions]>,
     ) -> RayCounts {
-        let is_centered = self.most == 1;
+        let is_centered = self.sizes.most == 1;
         let samples: Vec<Sample> = some
             .iter()
             .flat_map(|pixel| {
@@ -205,13 +155,18 @@ impl Exposure {
             })
             .collect();
         let mut seen = Vec::with_capacity(samples.len());
-        let counts = eye.see(&samples, &mut seen);
-        let mut seen = seen.into_iter();
+        let mut regions = touched.is_some().then(Vec::new);
+        let counts = self.eye.see(&samples, &mut seen, regions.as_mut());
+        let (mut touched, mut next) = (touched, 0);
         for pixel in some {
             let sum = &mut sums[*pixel];
-            let more = wanted(sum) - sum.count;
-            for glimpse in seen.by_ref().take(more as usize) {
-                sum.add(glimpse, self.behind);
+            let range = next..next + (wanted(sum) - sum.count) as usize;
+            next = range.end;
+            for glimpse in &seen[range.clone()] {
+                sum.add(*glimpse, self.behind);
+            }
+            if let (Some(touched), Some(regions)) = (&mut touched, &regions) {
+                touched[*pixel].add(&union(&regions[range]));
             }
         }
         counts
@@ -232,6 +187,71 @@ impl Exposure {
             }
             None => Pixel { color: color.as_vec3(), cover: cover as f32 },
         }
+    }
+}
+
+impl<E: Eye<Sample = Sample, Seen = Glimpse>> Painter for Exposure<E> {
+    type Look = Sum;
+
+    fn nothing(&self) -> (Sum, Stored) {
+        let mut nothing = Sum::default();
+        (0..self.sizes.few).for_each(|_| nothing.add(Glimpse::default(), self.behind));
+        (nothing, self.developed(&nothing).stored())
+    }
+
+    fn looks_first(&self) -> bool {
+        true
+    }
+
+    fn look(
+        &self,
+        spots: &[Spot],
+        made: &mut Vec<Sum>,
+        touched: Option<&mut Vec<Regions>>,
+    ) -> RayCounts {
+        made.resize(spots.len(), Sum::default());
+        let all: Vec<usize> = (0..spots.len()).collect();
+        let touched = touched.map(|touched| {
+            touched.resize(spots.len(), Regions::default());
+            &mut touched[..]
+        });
+        self.add(spots, &all, |_| self.sizes.few, made, touched)
+    }
+
+    /// Adds samples to pixels until their errors are small enough.
+    fn finish(
+        &self,
+        spots: &[Spot],
+        looks: &Plane<Sum>,
+        made: &mut Vec<Stored>,
+        touched: Option<&mut Vec<Regions>>,
+    ) -> RayCounts {
+        let mut sums: Vec<Sum> = spots.iter().map(|spot| looks.at(*spot)).collect();
+        let mut regions = touched.as_ref().map(|_| vec![Regions::default(); spots.len()]);
+        let mut counts = RayCounts::default();
+        let differs = |index: usize| {
+            let shown = sums[index].shown();
+            looks.round(spots[index]).any(|there| (there.shown() - shown).abs() > CONTRAST)
+        };
+        let differs: Vec<bool> = (0..spots.len()).map(differs).collect();
+        loop {
+            let wants = |index: &usize| self.sizes.wants_more(&sums[*index], differs[*index]);
+            let some: Vec<usize> = (0..spots.len()).filter(wants).collect();
+            if some.is_empty() {
+                break;
+            }
+            let wanted = |sum: &Sum| (2 * sum.count).min(self.sizes.most);
+            counts = counts + self.add(spots, &some, wanted, &mut sums, regions.as_deref_mut());
+        }
+        made.extend(sums.iter().map(|sum| self.developed(sum).stored()));
+        if let (Some(touched), Some(regions)) = (touched, regions) {
+            touched.extend(regions);
+        }
+        counts
+    }
+
+    fn rays(&self) -> u64 {
+        self.sizes.few.into()
     }
 }
 

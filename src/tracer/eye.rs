@@ -1,6 +1,7 @@
 //! What looks through places of a picture.
 
 use super::RayCounts;
+use super::regions::Regions;
 
 /// An eye: what a sample shows depends on the sample alone.
 pub trait Eye: Sync {
@@ -9,6 +10,12 @@ pub trait Eye: Sync {
     /// What comes back along it.
     type Seen: Copy + Default + Send + Sync;
 
-    /// Appends what is seen through each of `samples`, in their order.
-    fn see(&self, samples: &[Self::Sample], seen: &mut Vec<Self::Seen>) -> RayCounts;
+    /// Appends what is seen through each of `samples`, in their order, and if it is asked for which regions
+    /// that depends on.
+    fn see(
+        &self,
+        samples: &[Self::Sample],
+        seen: &mut Vec<Self::Seen>,
+        touched: Option<&mut Vec<Regions>>,
+    ) -> RayCounts;
 }

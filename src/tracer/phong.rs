@@ -7,6 +7,7 @@ use super::eye::Eye;
 use super::footprint::{Footprint, Footprints};
 use super::optics::{facing, mirrored, refracted};
 use super::pinhole::Pinhole;
+use super::regions::{Regions, Touched};
 use super::world::{OFFSET, World};
 use crate::lanes::{F32x8, LANES, Mask8, Simd, Task, Vec3x8, dispatch, math};
 use crate::packet::Rays;
@@ -65,6 +66,8 @@ struct Walk<S: Simd> {
     footprints: Footprints<S>,
     /// The width that a ray stands for at distance 1.
     spread: F32x8<S>,
+    /// Which regions it depends on, where that is asked for.
+    touched: Option<Touched<S>>,
 }
 
 impl<'a> Phong<'a> {
@@ -76,7 +79,12 @@ impl<'a> Phong<'a> {
 
     /// What comes back through up to eight places.
     #[inline(always)]
-    fn packet<S: Simd>(&self, places: &[Place], seen: &mut Vec<Seen>) -> RayCounts {
+    fn packet<S: Simd>(
+        &self,
+        places: &[Place],
+        seen: &mut Vec<Seen>,
+        touched: Option<&mut Vec<Regions>>,
+    ) -> RayCounts {
         let place = |lane: usize| places[lane.min(places.len() - 1)];
         let part = |part: fn(Place) -> f32| {
             F32x8::<S>::load(&std::array::from_fn(|lane| part(place(lane))))
@@ -103,11 +111,15 @@ impl<'a> Phong<'a> {
             hits: None,
             footprints: Footprints::new(),
             spread,
+            touched: touched.is_some().then(Touched::new),
         };
         walk.counts.primary = places.len() as u64;
         let color = self.radiance(&flight, &mut walk).store();
         let footprints = walk.footprints.store();
         let hits = walk.hits.map_or(0, Mask8::bits);
+        if let (Some(touched), Some(found)) = (touched, walk.touched) {
+            touched.extend_from_slice(&found.store()[..places.len()]);
+        }
         seen.extend((0..places.len()).map(|lane| Seen {
             color: color[lane],
             hits: hits >> lane & 1 == 1,
@@ -121,7 +133,12 @@ impl<'a> Phong<'a> {
         S::run(|| {
             let Flight { rays, lanes, .. } = flight;
             let (world, scene) = (&self.world, self.world.scene);
-            let meeting = world.nearest(rays, F32x8::splat(scene.max_distance as f32), *lanes);
+            let meeting = world.nearest(
+                rays,
+                F32x8::splat(scene.max_distance as f32),
+                *lanes,
+                &mut walk.touched,
+            );
             let hit = *lanes & meeting.lanes();
             walk.hits = walk.hits.or(Some(hit));
             walk.footprints.meet_nothing(lanes.but(hit));
@@ -131,7 +148,7 @@ impl<'a> Phong<'a> {
                 return background;
             }
             let length = flight.length + meeting.t;
-            let sight = world.sight(rays, &meeting, length * walk.spread, hit);
+            let sight = world.sight(rays, &meeting, length * walk.spread, hit, &mut walk.touched);
             let materials = &world.materials;
             let direction = rays.direction;
             let (outward, normal) = facing(sight.normals, direction);
@@ -154,7 +171,7 @@ impl<'a> Phong<'a> {
                 }
                 walk.counts.shadow += u64::from(lit.bits().count_ones());
                 let way = Rays { origin: leaving, direction: towards };
-                let share = world.transmission(&way, distance, lit);
+                let share = world.transmission(&way, distance, lit, &mut walk.touched);
                 let lit = lit & share.gt(zero);
                 if !lit.any() {
                     continue;
@@ -173,7 +190,7 @@ impl<'a> Phong<'a> {
             walk.footprints.meet(
                 hit,
                 flight.weight,
-                meeting.body,
+                world.names(&meeting),
                 normal,
                 sight.color,
                 scattered + highlights,
@@ -248,19 +265,30 @@ impl Eye for Phong<'_> {
     type Sample = Place;
     type Seen = Seen;
 
-    fn see(&self, samples: &[Place], seen: &mut Vec<Seen>) -> RayCounts {
-        struct See<'a, 'b>(&'a Phong<'b>, &'a [Place], &'a mut Vec<Seen>);
+    fn see(
+        &self,
+        samples: &[Place],
+        seen: &mut Vec<Seen>,
+        touched: Option<&mut Vec<Regions>>,
+    ) -> RayCounts {
+        struct See<'a, 'b>(
+            &'a Phong<'b>,
+            &'a [Place],
+            &'a mut Vec<Seen>,
+            Option<&'a mut Vec<Regions>>,
+        );
         impl Task for See<'_, '_> {
             type Output = RayCounts;
 
             #[inline(always)]
             fn run<S: Simd>(self) -> RayCounts {
-                let packets = self.1.chunks(LANES);
-                packets.fold(RayCounts::default(), |counts, places| {
-                    counts + self.0.packet::<S>(places, self.2)
+                let See(eye, samples, seen, mut touched) = self;
+                let packets = samples.chunks(LANES);
+                packets.fold(RayCounts::default(), |counts, samples| {
+                    counts + eye.packet::<S>(samples, seen, touched.as_deref_mut())
                 })
             }
         }
-        dispatch(See(self, samples, seen))
+        dispatch(See(self, samples, seen, touched))
     }
 }

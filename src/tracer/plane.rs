@@ -1,8 +1,11 @@
 //! Values by pixel, filled by all threads.
 
+use std::ops::Add;
+
 use rayon::prelude::*;
 
 use super::RayCounts;
+use super::regions::Regions;
 
 /// A pixel's column and row.
 pub type Spot = [u32; 2];
@@ -45,30 +48,86 @@ impl<T: Copy + Send + Sync> Plane<T> {
         rows.flat_map(move |row| columns.clone().map(move |column| self.at([column, row])))
     }
 
-    /// Gives the `wanted` pixels new values: `make` is told some of them, and appends theirs. Which of them it is
-    /// told at once has no meaning.
+    /// Another plane, of what `make` gives for each pixel's value.
+    pub fn map<R: Copy + Send + Sync>(&self, make: impl Fn(Spot, &T) -> R + Sync) -> Plane<R> {
+        let width = self.width.max(1) as usize;
+        let make = |(index, value): (usize, &T)| {
+            make([(index % width) as u32, (index / width) as u32], value)
+        };
+        let values = self.values.par_iter().enumerate().with_min_len(1 << 14).map(make).collect();
+        Plane { width: self.width, height: self.height, values }
+    }
+
+    /// Gives some pixels one value.
+    pub fn set(&mut self, wanted: impl Fn(Spot) -> bool + Sync, value: T) {
+        let width = self.width.max(1) as usize;
+        self.values.par_iter_mut().enumerate().with_min_len(1 << 14).for_each(|(index, stored)| {
+            if wanted([(index % width) as u32, (index / width) as u32]) {
+                *stored = value;
+            }
+        });
+    }
+
+    /// The values of some pixels, to be restored later.
+    pub fn saved(&self, wanted: impl Fn(Spot) -> bool) -> Vec<(usize, T)> {
+        let width = self.width.max(1) as usize;
+        let spot = |index: usize| [(index % width) as u32, (index / width) as u32];
+        let values = self.values.iter().enumerate();
+        values
+            .filter(|(index, _)| wanted(spot(*index)))
+            .map(|(index, value)| (index, *value))
+            .collect()
+    }
+
+    pub fn restore(&mut self, saved: Vec<(usize, T)>) {
+        for (index, value) in saved {
+            self.values[index] = value;
+        }
+    }
+
+    /// Gives the `wanted` pixels new values: `make` is told some of them, and appends theirs, and where `regions`
+    /// are kept those that they depend on. Which pixels it is told at once has no meaning.
     pub fn fill(
         &mut self,
         wanted: impl Fn(Spot) -> bool + Sync,
-        make: impl Fn(&[Spot], &mut Vec<T>) -> RayCounts + Sync,
+        regions: Option<&mut Plane<Regions>>,
+        make: impl Fn(&[Spot], &mut Vec<T>, Option<&mut Vec<Regions>>) -> RayCounts + Sync,
     ) -> RayCounts {
         let width = self.width as usize;
-        let band = |(index, rows): (usize, &mut [T])| {
+        if width == 0 {
+            return RayCounts::default();
+        }
+        let band = |index: usize, rows: &mut [T], mut regions: Option<&mut [Regions]>| {
             let top = index * ROWS;
             let spots = spots(width, top, rows.len() / width, &wanted);
             let mut made = Vec::with_capacity(BATCH);
+            let mut touched = regions.as_ref().map(|_| Vec::with_capacity(BATCH));
             let mut counts = RayCounts::default();
+            let place = |[x, y]: Spot| (y as usize - top) * width + x as usize;
             for some in spots.chunks(BATCH) {
                 made.clear();
-                counts = counts + make(some, &mut made);
-                for ([x, y], value) in some.iter().zip(&made) {
-                    rows[(*y as usize - top) * width + *x as usize] = *value;
+                touched.iter_mut().for_each(Vec::clear);
+                counts = counts + make(some, &mut made, touched.as_mut());
+                for (spot, value) in some.iter().zip(&made) {
+                    rows[place(*spot)] = *value;
+                }
+                if let (Some(regions), Some(touched)) = (&mut regions, &touched) {
+                    for (spot, touched) in some.iter().zip(touched) {
+                        regions[place(*spot)] = *touched;
+                    }
                 }
             }
             counts
         };
         let bands = self.values.par_chunks_mut(ROWS * width).enumerate();
-        bands.map(band).reduce(RayCounts::default, std::ops::Add::add)
+        let sum = RayCounts::default;
+        match regions {
+            None => bands.map(|(index, rows)| band(index, rows, None)).reduce(sum, Add::add),
+            Some(regions) => bands
+                .zip(regions.values.par_chunks_mut(ROWS * width))
+                .map(|((index, rows), regions)| band(index, rows, Some(regions)))
+                .reduce(sum, Add::add),
+        }
     }
 }
 
@@ -98,7 +157,7 @@ mod tests {
     fn each_wanted_pixel_is_asked_for_once() {
         let mut plane = Plane::new(13, 21, 0);
         let wanted = |[x, y]: Spot| (x + y) % 3 != 0;
-        let counts = plane.fill(wanted, |spots, made| {
+        let counts = plane.fill(wanted, None, |spots, made, _| {
             made.extend(spots.iter().map(|[x, y]| 100 * y + x + 1));
             RayCounts { primary: spots.len() as u64, ..RayCounts::default() }
         });

@@ -7,82 +7,48 @@ use super::footprint::Footprint;
 use super::phong::{Place, Seen};
 use super::pixel::{Pixel, Stored};
 use super::plane::{Plane, Spot};
-use super::silhouette::Silhouette;
+use super::regions::Regions;
+use super::sketch::Painter;
 use super::{Antialiasing, RayCounts};
 use crate::scene::Scene;
 
-/// Paints a picture of `scene` through `eye`.
-pub fn render(
-    eye: &impl Eye<Sample = Place, Seen = Seen>,
-    scene: &Scene,
-    size: [u32; 2],
+/// Paints what an eye sees.
+pub struct Sampling<E> {
+    eye: E,
     mode: Antialiasing,
-) -> (Plane<Stored>, RayCounts) {
-    let background = scene.background.map(|color| color.as_vec3());
-    let nothing = Seen {
-        color: background.unwrap_or(Vec3::ZERO),
-        hits: false,
-        footprint: Footprint::of_nothing(),
-    };
-    let is_transparent = background.is_none();
-    let easel = Easel { eye, silhouette: Silhouette::new(scene, size), is_transparent, nothing };
-    let mut picture = Plane::new(size[0], size[1], easel.pixel(&nothing).stored());
-    let counts = match mode {
-        Antialiasing::None => easel.grid(&mut picture, 1),
-        Antialiasing::Grid(side) => easel.grid(&mut picture, side),
-        Antialiasing::Adaptive { rays, threshold } => easel.adaptive(&mut picture, rays, threshold),
-    };
-    (picture, counts)
-}
-
-struct Easel<'a, E> {
-    eye: &'a E,
-    silhouette: Silhouette,
     /// Whether what meets nothing is transparent.
     is_transparent: bool,
     /// What is seen where nothing is met.
     nothing: Seen,
 }
 
-impl<E: Eye<Sample = Place, Seen = Seen>> Easel<'_, E> {
-    fn grid(&self, picture: &mut Plane<Stored>, side: u32) -> RayCounts {
-        let counts = picture.fill(
-            |spot| self.silhouette.may_show(spot),
-            |spots, made| self.means(spots, side, made),
-        );
-        counts + self.skipped(picture, side * side)
+impl<E: Eye<Sample = Place, Seen = Seen>> Sampling<E> {
+    pub fn new(eye: E, scene: &Scene, mode: Antialiasing) -> Sampling<E> {
+        let background = scene.background.map(|color| color.as_vec3());
+        let nothing = Seen {
+            color: background.unwrap_or(Vec3::ZERO),
+            hits: false,
+            footprint: Footprint::of_nothing(),
+        };
+        Sampling { eye, mode, is_transparent: background.is_none(), nothing }
     }
 
-    fn adaptive(&self, picture: &mut Plane<Stored>, side: u32, threshold: f32) -> RayCounts {
-        let mut looks = Plane::new(picture.width, picture.height, self.nothing);
-        let look = |spots: &[Spot], made: &mut Vec<Seen>| {
-            self.eye
-                .see(&spots.iter().map(|spot| place(*spot, [0.5; 2], 1)).collect::<Vec<_>>(), made)
-        };
-        let first = looks.fill(|spot| self.silhouette.may_show(spot), look);
-        let differs = |spot: Spot| {
-            let here = looks.at(spot);
-            looks.round(spot).any(|there| there.footprint.differs(&here.footprint, threshold))
-        };
-        let more = picture.fill(differs, |spots, made| self.means(spots, side, made));
-        picture.fill(
-            |spot| !differs(spot),
-            |spots, made| {
-                made.extend(spots.iter().map(|spot| self.pixel(&looks.at(*spot)).stored()));
-                RayCounts::default()
-            },
-        );
-        first + more + self.skipped(picture, 1)
-    }
-
-    /// The rays that are known to meet nothing, so many a pixel.
-    fn skipped(&self, picture: &Plane<Stored>, rays: u32) -> RayCounts {
-        let empty = self.silhouette.empty([picture.width, picture.height]);
-        RayCounts { primary: empty * u64::from(rays), ..RayCounts::default() }
+    /// How many rays a pixel gets across, if it gets more than one.
+    fn side(&self) -> u32 {
+        match self.mode {
+            Antialiasing::None => 1,
+            Antialiasing::Grid(side) | Antialiasing::Adaptive { rays: side, .. } => side,
+        }
     }
 
     /// The means over the middles of `side` × `side` parts of pixels.
-    fn means(&self, spots: &[Spot], side: u32, made: &mut Vec<Stored>) -> RayCounts {
+    fn means(
+        &self,
+        spots: &[Spot],
+        made: &mut Vec<Stored>,
+        touched: Option<&mut Vec<Regions>>,
+    ) -> RayCounts {
+        let side = self.side();
         let parts = (side * side) as usize;
         let middle = |index: u32| (index as f32 + 0.5) / side as f32;
         let within = |part: u32| [middle(part % side), middle(part / side)];
@@ -91,11 +57,15 @@ impl<E: Eye<Sample = Place, Seen = Seen>> Easel<'_, E> {
             .flat_map(|spot| (0..side * side).map(move |part| place(*spot, within(part), side)))
             .collect();
         let mut seen = Vec::with_capacity(places.len());
-        let counts = self.eye.see(&places, &mut seen);
+        let mut regions = touched.is_some().then(Vec::new);
+        let counts = self.eye.see(&places, &mut seen, regions.as_mut());
         made.extend(seen.chunks_exact(parts).map(|seen| {
             let sum = seen.iter().fold(Pixel::default(), |sum, seen| sum + self.pixel(seen));
             (sum / parts as f32).stored()
         }));
+        if let (Some(touched), Some(regions)) = (touched, regions) {
+            touched.extend(regions.chunks_exact(parts).map(union));
+        }
         counts
     }
 
@@ -106,6 +76,74 @@ impl<E: Eye<Sample = Place, Seen = Seen>> Easel<'_, E> {
         // What is too bright is as bright as can be, also beside what is not.
         Pixel { color: seen.color.min(Vec3::ONE), cover: 1.0 }
     }
+}
+
+impl<E: Eye<Sample = Place, Seen = Seen>> Painter for Sampling<E> {
+    type Look = Seen;
+
+    fn nothing(&self) -> (Seen, Stored) {
+        (self.nothing, self.pixel(&self.nothing).stored())
+    }
+
+    fn looks_first(&self) -> bool {
+        matches!(self.mode, Antialiasing::Adaptive { .. })
+    }
+
+    fn look(
+        &self,
+        spots: &[Spot],
+        made: &mut Vec<Seen>,
+        touched: Option<&mut Vec<Regions>>,
+    ) -> RayCounts {
+        let places: Vec<Place> = spots.iter().map(|spot| place(*spot, [0.5; 2], 1)).collect();
+        self.eye.see(&places, made, touched)
+    }
+
+    fn finish(
+        &self,
+        spots: &[Spot],
+        looks: &Plane<Seen>,
+        made: &mut Vec<Stored>,
+        touched: Option<&mut Vec<Regions>>,
+    ) -> RayCounts {
+        let Antialiasing::Adaptive { threshold, .. } = self.mode else {
+            return self.means(spots, made, touched);
+        };
+        let differs = |spot: &Spot| {
+            let here = looks.at(*spot);
+            looks.round(*spot).any(|there| there.footprint.differs(&here.footprint, threshold))
+        };
+        let more: Vec<bool> = spots.iter().map(differs).collect();
+        let some: Vec<Spot> =
+            spots.iter().zip(&more).filter(|(_, more)| **more).map(|(spot, _)| *spot).collect();
+        let mut means = Vec::with_capacity(some.len());
+        let mut regions = touched.is_some().then(Vec::new);
+        let counts = self.means(&some, &mut means, regions.as_mut());
+        let (mut means, mut regions) = (means.into_iter(), regions.into_iter().flatten());
+        let each = || spots.iter().zip(&more);
+        let own = |spot: &Spot| self.pixel(&looks.at(*spot)).stored();
+        made.extend(each().map(|(spot, more)| {
+            let mean = if *more { means.next() } else { None };
+            mean.unwrap_or_else(|| own(spot))
+        }));
+        if let Some(touched) = touched {
+            let next = |more: &bool| if *more { regions.next() } else { None };
+            touched.extend(more.iter().map(next).map(Option::unwrap_or_default));
+        }
+        counts
+    }
+
+    fn rays(&self) -> u64 {
+        if self.looks_first() { 1 } else { u64::from(self.side()).pow(2) }
+    }
+}
+
+/// All regions of several rays.
+pub fn union(regions: &[Regions]) -> Regions {
+    regions.iter().fold(Regions::default(), |mut all, regions| {
+        all.add(regions);
+        all
+    })
 }
 
 /// The place at a share of a pixel's width and height from its upper left corner.

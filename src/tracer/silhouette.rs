@@ -41,6 +41,12 @@ impl Silhouette {
         silhouette
     }
 
+    /// Of something that may be anywhere.
+    pub fn everywhere([width, height]: [u32; 2]) -> Silhouette {
+        let [columns, rows] = [width, height].map(|side| side.div_ceil(TILE) as usize);
+        Silhouette { columns, may_show: vec![true; columns * rows] }
+    }
+
     /// How many pixels of a picture of `size` show nothing.
     pub fn empty(&self, [width, height]: [u32; 2]) -> u64 {
         let row = |y: u32| (0..width).filter(|x| !self.may_show([*x, y])).count() as u64;

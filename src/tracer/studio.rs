@@ -12,6 +12,7 @@ use super::eye::Eye;
 use super::lights::Lights;
 use super::optics::{facing, fresnel, grazing, mirrored, refracted};
 use super::pinhole::Pinhole;
+use super::regions::{Regions, Touched};
 use super::sequence::{Sequence, Sequences};
 use super::world::{Meeting, OFFSET, World};
 use crate::lanes::{F32x8, LANES, Mask8, Simd, Task, U32x8, Vec3x8, dispatch, math};
@@ -97,9 +98,21 @@ struct Meet<S: Simd> {
 }
 
 /// What samples are made with.
-struct Draw<'a, S: Simd> {
+struct Draw<S: Simd> {
     numbers: Sequences<S>,
-    counts: &'a mut RayCounts,
+    counts: RayCounts,
+    /// Which regions they depend on, where that is asked for.
+    touched: Option<Touched<S>>,
+}
+
+impl<S: Simd> Draw<S> {
+    /// Appends the regions of the first few lanes, where they are asked for.
+    #[inline(always)]
+    fn tell(&self, count: usize, touched: Option<&mut Vec<Regions>>) {
+        if let (Some(touched), Some(found)) = (touched, &self.touched) {
+            touched.extend_from_slice(&found.store()[..count]);
+        }
+    }
 }
 
 impl<'a> Studio<'a> {
@@ -119,7 +132,12 @@ impl<'a> Studio<'a> {
 
     /// What comes back along up to eight samples.
     #[inline(always)]
-    fn packet<S: Simd>(&self, samples: &[Sample], seen: &mut Vec<Glimpse>) -> RayCounts {
+    fn packet<S: Simd>(
+        &self,
+        samples: &[Sample],
+        seen: &mut Vec<Glimpse>,
+        touched: Option<&mut Vec<Regions>>,
+    ) -> RayCounts {
         let sample = |lane: usize| samples[lane.min(samples.len() - 1)];
         let part = |part: fn(Sample) -> u32| {
             U32x8::<S>::load(&std::array::from_fn(|lane| part(sample(lane))))
@@ -135,7 +153,6 @@ impl<'a> Studio<'a> {
             self.pinhole.rays(x.i32_to_f32() + dx, y.i32_to_f32() + dy)
         };
         let (zero, one) = (F32x8::splat(0.0), F32x8::splat(1.0));
-        let mut counts = RayCounts { primary: samples.len() as u64, ..RayCounts::default() };
         let index =
             if self.world.is_transparent() { self.world.index_at(rays.origin, lanes) } else { one };
         let flight = Flight {
@@ -147,13 +164,18 @@ impl<'a> Studio<'a> {
             index,
             spread: F32x8::splat(self.spread),
         };
-        let meeting = self.nearest(&rays, lanes);
+        let mut draw = Draw {
+            numbers,
+            counts: RayCounts { primary: samples.len() as u64, ..RayCounts::default() },
+            touched: touched.is_some().then(Touched::new),
+        };
+        let meeting = self.nearest(&rays, lanes, &mut draw);
         let hit = lanes & meeting.lanes();
         if !hit.any() {
             seen.extend(samples.iter().map(|_| Glimpse::default()));
-            return counts;
+            draw.tell(samples.len(), touched);
+            return draw.counts;
         }
-        let mut draw = Draw { numbers, counts: &mut counts };
         let light = self.light(&Flight { lanes: hit, ..flight }, &meeting, &mut draw);
         let endless = self.world.is_endless(&meeting);
         let mut cover = hit.keep(one);
@@ -165,7 +187,8 @@ impl<'a> Studio<'a> {
             let is_hit = hit >> lane & 1 == 1;
             if is_hit { Glimpse::new(light[lane], cover[lane]) } else { Glimpse::default() }
         }));
-        counts
+        draw.tell(samples.len(), touched);
+        draw.counts
     }
 
     /// The rays of a camera with a lens, one by one.
@@ -185,8 +208,9 @@ impl<'a> Studio<'a> {
     }
 
     #[inline(always)]
-    fn nearest<S: Simd>(&self, rays: &Rays<S>, lanes: Mask8<S>) -> Meeting<S> {
-        self.world.nearest(rays, F32x8::splat(self.world.scene.max_distance as f32), lanes)
+    fn nearest<S: Simd>(&self, rays: &Rays<S>, lanes: Mask8<S>, draw: &mut Draw<S>) -> Meeting<S> {
+        let farthest = F32x8::splat(self.world.scene.max_distance as f32);
+        self.world.nearest(rays, farthest, lanes, &mut draw.touched)
     }
 
     /// The light that comes back along rays that meet something.
@@ -201,7 +225,7 @@ impl<'a> Studio<'a> {
             let Flight { rays, lanes, .. } = flight;
             let (world, materials) = (&self.world, &self.world.materials);
             let seen = (flight.length + meeting.t) * flight.spread;
-            let sight = world.sight(rays, meeting, seen, *lanes);
+            let sight = world.sight(rays, meeting, seen, *lanes, &mut draw.touched);
             let (outward, normal) = facing(sight.normals, rays.direction);
             let meet = Meet {
                 distance: meeting.t,
@@ -278,7 +302,7 @@ impl<'a> Studio<'a> {
                 if asking.any() {
                     draw.counts.shadow += u64::from(asking.bits().count_ones());
                     let way = Rays { origin: meet.leaving, direction: towards };
-                    let open = self.world.transmission(&way, distance, asking);
+                    let open = self.world.transmission(&way, distance, asking, &mut draw.touched);
                     share = asking.select(share * open, share);
                 }
                 sum += Vec3x8::splat(light.color) * share;
@@ -307,7 +331,7 @@ impl<'a> Studio<'a> {
         }
         draw.counts.shadow += u64::from(asking.bits().count_ones());
         let way = Rays { origin: meet.leaving, direction };
-        let found = self.world.nearest(&way, F32x8::splat(HIDES as f32), asking);
+        let found = self.world.nearest(&way, F32x8::splat(HIDES as f32), asking, &mut draw.touched);
         let hidden = asking & found.lanes();
         let bounce = F32x8::splat(self.lights.bounce);
         let ground = Vec3x8::grey(F32x8::splat(FAR_GROUND as f32) * bounce);
@@ -352,7 +376,7 @@ impl<'a> Studio<'a> {
                 let direction = Vec3x8::select(is_above, blurred, exact);
                 let rays = Rays { origin: meet.leaving, direction };
                 draw.counts.reflected += u64::from(followed.bits().count_ones());
-                let meeting = self.nearest(&rays, followed);
+                let meeting = self.nearest(&rays, followed, draw);
                 followed = followed & meeting.lanes();
                 if followed.any() {
                     let next = Flight {
@@ -424,7 +448,7 @@ impl<'a> Studio<'a> {
             if followed.any() {
                 draw.counts.refracted += u64::from(followed.bits().count_ones());
                 let rays = Rays { origin: behind, direction: bent };
-                let meeting = self.nearest(&rays, followed);
+                let meeting = self.nearest(&rays, followed, draw);
                 let hit = followed & meeting.lanes();
                 seen = Vec3x8::splat(self.background);
                 if hit.any() {
@@ -461,20 +485,31 @@ impl Eye for Studio<'_> {
     type Sample = Sample;
     type Seen = Glimpse;
 
-    fn see(&self, samples: &[Sample], seen: &mut Vec<Glimpse>) -> RayCounts {
-        struct See<'a, 'b>(&'a Studio<'b>, &'a [Sample], &'a mut Vec<Glimpse>);
+    fn see(
+        &self,
+        samples: &[Sample],
+        seen: &mut Vec<Glimpse>,
+        touched: Option<&mut Vec<Regions>>,
+    ) -> RayCounts {
+        struct See<'a, 'b>(
+            &'a Studio<'b>,
+            &'a [Sample],
+            &'a mut Vec<Glimpse>,
+            Option<&'a mut Vec<Regions>>,
+        );
         impl Task for See<'_, '_> {
             type Output = RayCounts;
 
             #[inline(always)]
             fn run<S: Simd>(self) -> RayCounts {
-                let packets = self.1.chunks(LANES);
+                let See(eye, samples, seen, mut touched) = self;
+                let packets = samples.chunks(LANES);
                 packets.fold(RayCounts::default(), |counts, samples| {
-                    counts + self.0.packet::<S>(samples, self.2)
+                    counts + eye.packet::<S>(samples, seen, touched.as_deref_mut())
                 })
             }
         }
-        dispatch(See(self, samples, seen))
+        dispatch(See(self, samples, seen, touched))
     }
 }
 

@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
-use glam::{DMat3, DVec3, Vec3};
+use glam::{DMat3, Vec3};
 
 use super::cells::Grid;
+use super::regions::{Regions, Space, Touched, rounded};
 use crate::geometry::{Bounds, Solid as _};
 use crate::lanes::{F32x8, Mask8, Simd, U32x8, Vec3x8};
 use crate::packet::solids::{Crossing, Normals, Solid};
@@ -40,6 +41,10 @@ struct Body {
     max: Vec3,
     is_transparent: bool,
     is_endless: bool,
+    /// Whether squares are painted on it.
+    is_painted: bool,
+    /// The regions that it takes.
+    regions: Regions,
 }
 
 /// A scene with what is needed to trace packets through it.
@@ -49,11 +54,15 @@ pub struct World<'a> {
     /// What is opaque first: of surfaces in one place that of the first body is seen.
     bodies: Vec<Body>,
     grid: Grid,
+    /// How the space is divided.
+    space: Space,
     /// What stands in no cell, and what has no end.
     loose: Vec<usize>,
     endless: Vec<usize>,
     /// Which bodies are transparent.
     transparent: Vec<usize>,
+    /// Numbers by which bodies are told apart, whatever else there is.
+    names: Vec<u32>,
 }
 
 /// Which rays still look for something, and how far.
@@ -94,25 +103,44 @@ impl<'a> World<'a> {
     pub fn new(scene: &'a Scene, shelf: &Shelf) -> World<'a> {
         let mut order: Vec<&Object> = scene.objects.iter().collect();
         order.sort_by_key(|object| object.surface.is_transparent());
-        let mut materials = Materials::default();
-        let bodies: Vec<Body> = order
-            .iter()
-            .map(|object| Body::new(object, shelf, materials.add(object.surface.materials())))
-            .collect();
-        let all = |is: fn(&Body) -> bool| {
-            (0..bodies.len()).filter(|index| is(&bodies[*index])).collect::<Vec<usize>>()
+        let space = Space::new(scene.cells);
+        let mut world = World {
+            scene,
+            materials: Materials::default(),
+            bodies: Vec::with_capacity(order.len()),
+            grid: Grid::new(scene.cells),
+            space,
+            loose: Vec::new(),
+            endless: Vec::new(),
+            transparent: Vec::new(),
+            names: Vec::new(),
         };
-        let endless = all(|body| body.is_endless);
-        let transparent = all(|body| body.is_transparent);
-        let finite = bodies.iter().enumerate().filter(|(_, body)| !body.is_endless);
-        let (grid, loose) =
-            Grid::new(scene.cells, finite.map(|(index, body)| (index, [body.min, body.max])));
-        World { scene, materials, bodies, grid, loose, endless, transparent }
+        for (index, object) in order.into_iter().enumerate() {
+            let materials = world.materials.add(object.surface.materials());
+            let body = Body::new(object, shelf, materials, &space);
+            match space.cell(object) {
+                _ if body.is_endless => world.endless.push(index),
+                Some(cell) => world.grid.stand(index, cell),
+                None => world.loose.push(index),
+            }
+            if body.is_transparent {
+                world.transparent.push(index);
+            }
+            world.names.push(name(object));
+            world.bodies.push(body);
+        }
+        world
     }
 
     /// Whether anything can be seen through.
     pub fn is_transparent(&self) -> bool {
         !self.transparent.is_empty()
+    }
+
+    /// Numbers by which the bodies that rays meet are told apart.
+    #[inline(always)]
+    pub fn names<S: Simd>(&self, meeting: &Meeting<S>) -> U32x8<S> {
+        U32x8::gather(&self.names, meeting.body)
     }
 
     /// Whether the body that rays meet has no end.
@@ -130,6 +158,7 @@ impl<'a> World<'a> {
         rays: &Rays<S>,
         before: F32x8<S>,
         lanes: Mask8<S>,
+        touched: &mut Option<Touched<S>>,
     ) -> Meeting<S> {
         S::run(|| {
             let nothing = U32x8::splat(NOTHING);
@@ -147,6 +176,9 @@ impl<'a> World<'a> {
                 found.part = closer.select_words(crossing.part, found.part);
                 search.before = found.t;
             });
+            if let Some(touched) = touched {
+                touched.add_way(&self.space, rays, found.t, lanes);
+            }
             found
         })
     }
@@ -159,6 +191,7 @@ impl<'a> World<'a> {
         rays: &Rays<S>,
         distance: F32x8<S>,
         lanes: Mask8<S>,
+        touched: &mut Option<Touched<S>>,
     ) -> F32x8<S> {
         S::run(|| {
             let mut share = lanes.keep(F32x8::splat(1.0));
@@ -171,8 +204,18 @@ impl<'a> World<'a> {
                     let blocked = lanes & body.blocks(rays, F32x8::splat(0.0), distance, lanes);
                     share = blocked.select(F32x8::splat(0.0), share);
                     search.lanes = search.lanes.but(blocked);
+                    // Whatever else is in the way makes no difference.
+                    if let Some(touched) = touched
+                        && blocked.any()
+                    {
+                        touched.add(blocked, &body.regions);
+                    }
                 }
             });
+            if let Some(touched) = touched {
+                let open = lanes & share.gt(F32x8::splat(0.0));
+                touched.add_way(&self.space, rays, distance, open);
+            }
             share
         })
     }
@@ -239,6 +282,7 @@ impl<'a> World<'a> {
         meeting: &Meeting<S>,
         seen: F32x8<S>,
         lanes: Mask8<S>,
+        touched: &mut Option<Touched<S>>,
     ) -> Sight<S> {
         let point = rays.at(meeting.t);
         let zero = Vec3x8::zero();
@@ -250,6 +294,11 @@ impl<'a> World<'a> {
         };
         self.each(meeting, lanes, |body, lanes| {
             self.sight_of(body, point, meeting.part, seen, lanes, &mut sight);
+            if let Some(touched) = touched
+                && body.is_painted
+            {
+                touched.add_squares(&self.space, point, lanes);
+            }
         });
         sight
     }
@@ -356,13 +405,13 @@ pub fn enters<S: Simd>(
 }
 
 impl Body {
-    fn new(object: &Object, shelf: &Shelf, materials: u32) -> Body {
+    fn new(object: &Object, shelf: &Shelf, materials: u32, space: &Space) -> Body {
         let transform = object.body.transform();
         let to_own = transform.inverse();
         let bounds = object.body.bounds();
         let is_endless = !bounds.is_finite();
-        let Bounds { min, max } = if is_endless { Bounds::EVERYTHING } else { bounds };
-        let margin = DVec3::splat(1e-3);
+        let Bounds { min, max } = bounds;
+        let [min, max] = rounded(min, max);
         let normals = to_own.matrix3.transpose();
         let is_turned = normals != DMat3::IDENTITY;
         Body {
@@ -373,8 +422,10 @@ impl Body {
             }),
             surface: Surface::new(object),
             materials,
-            min: (min - margin).as_vec3(),
-            max: (max + margin).as_vec3(),
+            min,
+            max,
+            is_painted: object.paint.is_some(),
+            regions: space.regions(object),
             is_transparent: object.surface.is_transparent(),
             is_endless,
         }
@@ -421,4 +472,13 @@ impl Body {
         };
         Normals { flat: carry(normals.flat), smooth: carry(normals.smooth) }
     }
+}
+
+/// A hash (FNV's) of a body's place and seed.
+fn name(object: &Object) -> u32 {
+    let Bounds { min, max } = object.body.bounds();
+    let numbers = [min, max].into_iter().flat_map(|corner| corner.to_array().map(f64::to_bits));
+    let step = |hash: u64, number: u64| (hash ^ number).wrapping_mul(0x0000_0100_0000_01B3);
+    let hash = numbers.chain([object.seed]).fold(0xCBF2_9CE4_8422_2325, step);
+    (hash ^ hash >> 32) as u32
 }

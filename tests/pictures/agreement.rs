@@ -15,7 +15,7 @@ use lightsquare::geometry::transform::{rotation_x, rotation_y, translation};
 use lightsquare::geometry::{
     ControlPoint, Csg, Cuboid, Lathe, Normals, Outline, Prism, Profile, Sphere,
 };
-use lightsquare::scene::{Camera, Material, Object, Scene, Surface, Texture};
+use lightsquare::scene::{Camera, Cells, Material, Object, Scene, Surface, Texture};
 use lightsquare::tracer::{Antialiasing, render};
 
 const OPERA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/games/opera-1858.pgn");
@@ -219,7 +219,7 @@ fn carvings() -> Scene {
             z_rot: -5.0,
         }),
         room: None,
-        cells: None,
+        cells: Cells::default(),
         background: Some(DVec3::new(0.3, 0.4, 0.5)),
         max_depth: 8,
         min_weight: 1.0 / 1024.0,

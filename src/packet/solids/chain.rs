@@ -224,8 +224,7 @@ impl Slopes {
     #[inline(always)]
     pub fn at<S: Simd>(&self, x: F32x8<S>, y: F32x8<S>, segments: U32x8<S>) -> Slope<S> {
         let row = segments * U32x8::splat(ROW as u32);
-        let number =
-            |column: u32| F32x8::<S>::gather(&self.table, row + U32x8::splat(column));
+        let number = |column: u32| F32x8::<S>::gather(&self.table, row + U32x8::splat(column));
         let flat = [number(0), number(1)];
         if self.is_flat {
             return Slope { flat, smooth: flat };

@@ -12,7 +12,8 @@ pub struct Chance(pub u64);
 
 impl Chance {
     pub fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64
     }
 
@@ -89,8 +90,7 @@ impl Task for AskAll<'_> {
         let met = crossing.t.lt(F32x8::splat(f32::INFINITY)) & lanes;
         // Where nothing is met, a point and a part that are there.
         let parts = met.select_words(crossing.part, U32x8::splat(0));
-        let Normals { flat, smooth } =
-            solid.normals(rays.at(met.keep(crossing.t)), parts, met);
+        let Normals { flat, smooth } = solid.normals(rays.at(met.keep(crossing.t)), parts, met);
         let (t, part) = (crossing.t.store(), parts.store());
         let (flat, smooth) = (flat.store(), smooth.store());
         std::array::from_fn(|lane| {
@@ -181,7 +181,11 @@ pub fn hold(
         let is_so = agrees(&ray, 4.0 * slack) || shifted().any(|ray| agrees(&ray, 8.0 * slack));
         if !is_so {
             for ray in std::iter::once(ray).chain(shifted()) {
-                println!("{:?} {:?}", scalar.nearest(&ray, range), scalar.nearest(&ray, Interval::AHEAD));
+                println!(
+                    "{:?} {:?}",
+                    scalar.nearest(&ray, range),
+                    scalar.nearest(&ray, Interval::AHEAD)
+                );
             }
         }
         assert!(

@@ -215,11 +215,8 @@ impl Prism {
         let [entry_counts, exit_counts] = [at_entry, at_exit].map(counts);
         lines.from = (entry_counts | exit_counts)
             .select(F32x8::splat(f32::NEG_INFINITY), lines.from.max(lines.lids[0]));
-        let mut found = Found {
-            t: lines.to,
-            part: U32x8::splat(u32::MAX),
-            odd: [Mask8::no_lanes(); 2],
-        };
+        let mut found =
+            Found { t: lines.to, part: U32x8::splat(u32::MAX), odd: [Mask8::no_lanes(); 2] };
         self.find(&lines, [after, before], &mut found);
         let count = self.walls.len() as u32;
         let is_back_first = rays.direction.z.gt(F32x8::splat(0.0));
@@ -250,9 +247,8 @@ impl Prism {
                         let Some(wall) = self.walls.get(index) else { return false };
                         let (is_crossed, t) = lines.meet(wall);
                         let [entry, exit] = lines.lids;
-                        let toggle = |odd: Mask8<S>, passed: Mask8<S>| {
-                            (odd | passed).but(odd & passed)
-                        };
+                        let toggle =
+                            |odd: Mask8<S>, passed: Mask8<S>| (odd | passed).but(odd & passed);
                         found.odd = [
                             toggle(found.odd[0], is_crossed & t.le(entry)),
                             toggle(found.odd[1], is_crossed & t.lt(exit)),
@@ -278,9 +274,8 @@ impl Prism {
     pub fn contains<S: Simd>(&self, points: Vec3x8<S>, lanes: Mask8<S>) -> Mask8<S> {
         let x = points.x - F32x8::splat(self.middle[0]);
         let y = points.y - F32x8::splat(self.middle[1]);
-        let lanes = lanes
-            & points.z.gt(F32x8::splat(self.back))
-            & points.z.lt(F32x8::splat(self.front));
+        let lanes =
+            lanes & points.z.gt(F32x8::splat(self.back)) & points.z.lt(F32x8::splat(self.front));
         // An odd number of walls lies to the right when inside; runs without any are left out.
         let mut inside = Mask8::no_lanes();
         self.tree.walk(

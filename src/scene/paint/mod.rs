@@ -43,7 +43,7 @@ pub struct Painting {
 }
 
 /// One shape in one colour.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Layer {
     pub shape: Shape,
     pub color: Rgb,
@@ -83,6 +83,15 @@ impl Painting {
     }
 }
 
+/// The squares, by bits (a1, b1, … h8), on which two paintings are not the same.
+pub fn repainted(one: &Painting, other: &Painting) -> u64 {
+    let layers = |painting: &Painting, square: usize| {
+        painting.on[square].iter().map(|index| painting.layers[*index].clone()).collect::<Vec<_>>()
+    };
+    let differs = |square: &usize| layers(one, *square) != layers(other, *square);
+    (0..64).filter(differs).fold(0, |squares, square| squares | 1 << square)
+}
+
 fn middle(square: Square) -> DVec2 {
     DVec2::new(f64::from(square.file() as u32), f64::from(square.rank() as u32))
 }
@@ -111,10 +120,13 @@ impl Paints {
         Paints { settings }
     }
 
-    /// Paints `marks` on the board `squares`, where pieces stand as in `placement`.
+    /// Paints `marks` on the board `squares`, where pieces stand as in `placement`. Where marks of any kind
+    /// may be shown there is a painting, be it empty.
     pub fn paint(&self, squares: &mut Object, marks: &Marks, placement: &Placement) {
-        let layers = self.layers(marks, placement);
-        squares.paint = (!layers.is_empty()).then(|| Arc::new(Painting::new(layers)));
+        let config::Marks { last_move, check, mate, drawn, .. } = self.settings;
+        let may_paint = last_move || check || mate || drawn;
+        let painting = || Arc::new(Painting::new(self.layers(marks, placement)));
+        squares.paint = may_paint.then(painting);
     }
 
     fn layers(&self, marks: &Marks, placement: &Placement) -> Vec<Layer> {

@@ -10,6 +10,7 @@ use crate::tracer::RayCounts;
 use crate::tracer::eye::Eye;
 use crate::tracer::footprint::Footprint;
 use crate::tracer::phong::{Place, Seen};
+use crate::tracer::regions::Regions;
 
 /// How often a ray may go straight through a surface before each further time counts as refraction.
 const MAX_PASSES: u32 = 100;
@@ -159,7 +160,16 @@ impl Eye for Phong<'_> {
     type Sample = Place;
     type Seen = Seen;
 
-    fn see(&self, samples: &[Place], seen: &mut Vec<Seen>) -> RayCounts {
+    fn see(
+        &self,
+        samples: &[Place],
+        seen: &mut Vec<Seen>,
+        touched: Option<&mut Vec<Regions>>,
+    ) -> RayCounts {
+        // It does not know.
+        touched
+            .into_iter()
+            .for_each(|touched| touched.resize(touched.len() + samples.len(), Regions::ALL));
         let mut counts = RayCounts::default();
         let ([width, height], camera) = (self.size, &self.world.scene.camera);
         seen.extend(samples.iter().map(|place| {

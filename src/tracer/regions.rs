@@ -1,0 +1,323 @@
+//! Where rays passed, so that what changes elsewhere need not be asked again.
+//!
+//! A region is a part of space: the room of what stands in a cell, with the cell's square beneath it; or a zone,
+//! a column of space as wide as a cell, up to the height of what stands in cells, or from there up. The outermost
+//! zones have no end, so that zones are everywhere.
+
+use glam::{DVec3, Vec3};
+
+use crate::geometry::{Bounds, Solid};
+use crate::lanes::{F32x8, Mask8, Simd, U32x8, Vec3x8};
+use crate::packet::Rays;
+use crate::scene::{Cells, Object};
+
+/// Columns and rows of zones, and how many of the columns lie before the first cell.
+const COLUMNS: usize = 16;
+const ROWS: usize = 8;
+const BEFORE: f64 = 4.0;
+
+/// Words for the zones of a layer, for both layers, and for cells.
+const LAYER: usize = COLUMNS * ROWS / 32;
+const CELLS: usize = 2;
+const WORDS: usize = CELLS + 2 * LAYER;
+
+/// A set of regions.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Regions([u32; WORDS]);
+
+impl Regions {
+    /// Everywhere.
+    pub const ALL: Regions = Regions([u32::MAX; WORDS]);
+
+    /// The cells whose bits are set, row by row.
+    pub fn of_cells(cells: u64) -> Regions {
+        let mut regions = Regions::default();
+        (regions.0[0], regions.0[1]) = (cells as u32, (cells >> 32) as u32);
+        regions
+    }
+
+    /// Whether both sets have any region in common.
+    #[inline(always)]
+    pub fn meet(&self, other: &Regions) -> bool {
+        let both = self.0.iter().zip(&other.0).fold(0, |both, (one, other)| both | one & other);
+        both != 0
+    }
+
+    pub fn add(&mut self, other: &Regions) {
+        self.0.iter_mut().zip(other.0).for_each(|(word, other)| *word |= other);
+    }
+
+    /// Whether there is none that `other` has not.
+    pub fn are_within(&self, other: &Regions) -> bool {
+        self.0.iter().zip(other.0).all(|(word, other)| word & !other == 0)
+    }
+
+    pub fn is_empty(&self) -> bool {
+        *self == Regions::default()
+    }
+}
+
+/// A space that is divided into regions.
+#[derive(Clone, Copy)]
+pub struct Space {
+    cells: Cells,
+    /// The zones' lower left corner, and their side.
+    corner: [f32; 2],
+    side: f32,
+    /// Where the lower layer ends.
+    top: f32,
+}
+
+/// Room for rounding round boxes.
+const MARGIN: f64 = 2e-3;
+
+impl Space {
+    pub fn new(cells: Cells) -> Space {
+        let corner = cells.origin - cells.side / 2.0;
+        Space {
+            cells,
+            corner: [(corner.x - BEFORE * cells.side) as f32, corner.y as f32],
+            side: cells.side as f32,
+            top: cells.heights[1] as f32,
+        }
+    }
+
+    /// The cell in which a body stands; none where it does not keep to one.
+    pub fn cell(&self, object: &Object) -> Option<usize> {
+        let Bounds { min, max } = object.body.bounds();
+        let Cells { origin, side, reach, heights: [low, high] } = self.cells;
+        let middle = (min + max) / 2.0;
+        let place = [middle.x - origin.x, middle.z - origin.y].map(|at| (at / side).round());
+        let [column, row] = place;
+        let is_there = place.iter().all(|index| (0.0..ROWS as f64).contains(index));
+        let (x, z) = (origin.x + column * side, origin.y + row * side);
+        let asides = [x - min.x, max.x - x, z - min.z, max.z - z];
+        let keeps = asides.iter().all(|aside| *aside <= reach) && min.y >= low && max.y <= high;
+        (is_there && keeps).then(|| ROWS * row as usize + column as usize)
+    }
+
+    /// The regions that a body takes: its cell, or zones.
+    pub fn regions(&self, object: &Object) -> Regions {
+        let bounds = object.body.bounds();
+        match self.cell(object) {
+            _ if !bounds.is_finite() => Regions::ALL,
+            Some(cell) => Regions::of_cells(1 << cell),
+            None => self.zones(bounds.min, bounds.max),
+        }
+    }
+
+    /// The zones that a box meets.
+    fn zones(&self, min: DVec3, max: DVec3) -> Regions {
+        let (min, max) = (min - MARGIN, max + MARGIN);
+        let range = |low: f64, high: f64, corner: f32, count: usize| {
+            let index = |at: f64| {
+                let index = ((at - f64::from(corner)) / f64::from(self.side)).floor();
+                index.clamp(0.0, (count - 1) as f64) as usize
+            };
+            index(low)..=index(high)
+        };
+        let mut regions = Regions::default();
+        for row in range(min.z, max.z, self.corner[1], ROWS) {
+            for column in range(min.x, max.x, self.corner[0], COLUMNS) {
+                let zone = COLUMNS * row + column;
+                let layers = [min.y <= f64::from(self.top), max.y >= f64::from(self.top)];
+                for (layer, _) in layers.iter().enumerate().filter(|(_, is_met)| **is_met) {
+                    regions.0[CELLS + layer * LAYER + zone / 32] |= 1 << (zone % 32);
+                }
+            }
+        }
+        regions
+    }
+}
+
+/// The regions that eight rays, and those that come of them, have touched.
+pub struct Touched<S: Simd> {
+    words: [U32x8<S>; WORDS],
+}
+
+impl<S: Simd> Touched<S> {
+    #[inline(always)]
+    pub fn new() -> Touched<S> {
+        Touched { words: [U32x8::splat(0); WORDS] }
+    }
+
+    pub fn store(&self) -> [Regions; 8] {
+        let words = self.words.map(U32x8::store);
+        std::array::from_fn(|lane| Regions(words.map(|word| word[lane])))
+    }
+
+    /// Adds the same regions to some lanes.
+    #[inline(always)]
+    pub fn add(&mut self, lanes: Mask8<S>, regions: &Regions) {
+        for (touched, word) in self.words.iter_mut().zip(regions.0) {
+            if word != 0 {
+                *touched = *touched | lanes.select_words(U32x8::splat(word), U32x8::splat(0));
+            }
+        }
+    }
+
+    /// Adds the cells whose squares lie under `points`.
+    #[inline(always)]
+    pub fn add_squares(&mut self, space: &Space, points: Vec3x8<S>, lanes: Mask8<S>) {
+        let number = F32x8::splat;
+        let Cells { origin, side, .. } = space.cells;
+        let scale = number(1.0 / side as f32);
+        let index = |at: F32x8<S>, origin: f64| {
+            ((at - number(origin as f32)) * scale + number(0.5)).floor().clamp(0.0, 7.0).to_i32()
+        };
+        let (column, row) = (index(points.x, origin.x), index(points.z, origin.y));
+        let cell = (row << 3) + column;
+        let bit = U32x8::splat(1) << (cell & U32x8::splat(31));
+        let is_high = cell.below(U32x8::splat(32));
+        let zero = U32x8::splat(0);
+        self.words[0] = self.words[0] | (lanes & is_high).select_words(bit, zero);
+        self.words[1] = self.words[1] | lanes.but(is_high).select_words(bit, zero);
+    }
+
+    /// Adds all that rays pass up to the distances `to`.
+    #[inline(never)]
+    pub fn add_way(&mut self, space: &Space, rays: &Rays<S>, to: F32x8<S>, lanes: Mask8<S>) {
+        S::run(|| {
+            let inverse = rays.direction.map(|part| part.recip());
+            let Cells { origin, side, reach, heights: [low, high] } = space.cells;
+            let of = |[from, to]: [f64; 2]| [from as f32, to as f32];
+            let cells = Slab {
+                origin: of([origin.x, origin.y]),
+                side: side as f32,
+                reach: reach as f32,
+                heights: of([low, high]),
+            };
+            let mut row = |index: usize, bits: U32x8<S>| {
+                let word = &mut self.words[index / 4];
+                *word = *word | bits << (8 * (index % 4)) as u32;
+            };
+            cells.rows::<S, 8>(rays, inverse, to, lanes, &mut row);
+            let half = space.side / 2.0;
+            // What has no end is as good as this high.
+            let heights = [[-1e4, space.top], [space.top, 1e4]];
+            for (layer, heights) in heights.into_iter().enumerate() {
+                let zones = Slab {
+                    origin: space.corner.map(|at| at + half),
+                    side: space.side,
+                    reach: half + 1e-3,
+                    heights,
+                };
+                let first = CELLS + layer * LAYER;
+                let mut row = |index: usize, bits: U32x8<S>| {
+                    let word = &mut self.words[first + index / 2];
+                    *word = *word | bits << (16 * (index % 2)) as u32;
+                };
+                zones.endless_rows::<S, COLUMNS>(rays, inverse, to, lanes, &mut row);
+            }
+        });
+    }
+}
+
+/// Rows of boxes of one height, in a plane of eight rows.
+pub struct Slab {
+    /// The middle of the first box, and the way to the next.
+    pub origin: [f32; 2],
+    pub side: f32,
+    /// How far each box reaches from its middle.
+    pub reach: f32,
+    pub heights: [f32; 2],
+}
+
+impl Slab {
+    /// Gives `row` each row's boxes that rays pass up to `to`, as bits.
+    #[inline(always)]
+    pub fn rows<S: Simd, const N: usize>(
+        &self,
+        rays: &Rays<S>,
+        inverse: Vec3x8<S>,
+        to: F32x8<S>,
+        lanes: Mask8<S>,
+        row: &mut impl FnMut(usize, U32x8<S>),
+    ) {
+        self.each::<S, N, false>(rays, inverse, to, lanes, row);
+    }
+
+    /// The same, with boxes at the borders that have no end.
+    #[inline(always)]
+    pub fn endless_rows<S: Simd, const N: usize>(
+        &self,
+        rays: &Rays<S>,
+        inverse: Vec3x8<S>,
+        to: F32x8<S>,
+        lanes: Mask8<S>,
+        row: &mut impl FnMut(usize, U32x8<S>),
+    ) {
+        self.each::<S, N, true>(rays, inverse, to, lanes, row);
+    }
+
+    #[inline(always)]
+    fn each<S: Simd, const N: usize, const ENDLESS: bool>(
+        &self,
+        rays: &Rays<S>,
+        inverse: Vec3x8<S>,
+        to: F32x8<S>,
+        lanes: Mask8<S>,
+        row: &mut impl FnMut(usize, U32x8<S>),
+    ) {
+        let (o, d) = (rays.origin, rays.direction);
+        let number = F32x8::splat;
+        // Where the ray is at the right height; an endless one is as good as this long. A level one is at its
+        // height all the way, or nowhere.
+        let [low, high] = self.heights.map(number);
+        let (a, b) = ((low - o.y) * inverse.y, (high - o.y) * inverse.y);
+        let is_flat = d.y.abs().lt(number(1e-12));
+        let is_high = is_flat & o.y.ge(low) & o.y.le(high);
+        let enter = is_flat.select(number(0.0), a.min(b).max(number(0.0)));
+        let exit = is_flat.select(number(1e6), a.max(b)).min(to).min(number(1e6));
+        let lanes = lanes & enter.le(exit) & (is_high | !is_flat);
+        if !lanes.any() {
+            return;
+        }
+        // Along the rows: from where a ray is near the middle line of one to where it is no more. A ray that
+        // keeps within a row is taken to be in all that it is near.
+        let reach = number(self.reach).with_sign_of(d.z);
+        let to_first = number(self.origin[1]) - o.z;
+        let is_level = d.z.abs().lt(number(1e-12));
+        let scale = number(1.0 / self.side);
+        let left = number((self.side - self.reach - self.origin[0]) / self.side);
+        let right = number((self.side + self.reach - self.origin[0]) / self.side);
+        let most = N as f32;
+        for index in 0..ROWS {
+            let to_row = to_first + number(index as f32 * self.side);
+            let mut near = (to_row - reach) * inverse.z;
+            let mut far = (to_row + reach) * inverse.z;
+            let mut is_beside = is_level & to_row.abs().gt(number(self.reach));
+            let endless = number(f32::INFINITY);
+            if ENDLESS && (index == 0 || index == ROWS - 1) {
+                // Beyond the first row or the last one.
+                let is_outwards =
+                    if index == 0 { d.z.lt(number(0.0)) } else { d.z.ge(number(0.0)) };
+                far = is_outwards.select(endless, far);
+                near = is_outwards.select(near, -endless);
+                let beyond = if index == 0 { to_row } else { -to_row };
+                is_beside = is_beside.but(beyond.gt(number(0.0)));
+            }
+            near = is_level.select(-endless, near);
+            far = is_level.select(endless, far);
+            let (from, until) = (near.max(enter), far.min(exit));
+            let is_in = from.le(until).but(is_beside);
+            let (a, b) = (o.x + d.x * from, o.x + d.x * until);
+            let (first, behind) = (a.min(b) * scale + left, a.max(b) * scale + right);
+            let one = U32x8::splat(1);
+            let (first, behind) = if ENDLESS {
+                (first.clamp(0.0, most - 1.0), behind.clamp(1.0, most))
+            } else {
+                (first.clamp(0.0, most), behind.clamp(0.0, most))
+            };
+            let (first, behind) = (first.floor(), behind.floor());
+            let bits = (one << behind.to_i32()) - (one << first.to_i32());
+            let is_any = is_in & lanes & first.lt(behind);
+            row(index, is_any.select_words(bits, U32x8::splat(0)));
+        }
+    }
+}
+
+/// The smallest box round `min` and `max` in f32 with room for rounding.
+pub fn rounded(min: DVec3, max: DVec3) -> [Vec3; 2] {
+    [(min - 1e-3).as_vec3(), (max + 1e-3).as_vec3()]
+}
