@@ -1,8 +1,11 @@
 //! Solids for packets of rays; one file a shape, as in [`crate::geometry`].
 
+mod chain;
 mod csg;
 mod cuboid;
 mod lathe;
+#[cfg(test)]
+mod oracle;
 mod plane;
 mod prism;
 mod sphere;
