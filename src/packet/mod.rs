@@ -70,6 +70,19 @@ impl Transform {
         }
     }
 
+    /// Normals of the space that this leads to, in the space that it comes from; of any length.
+    #[inline(always)]
+    pub fn normal<S: Simd>(&self, normal: Vec3x8<S>) -> Vec3x8<S> {
+        match &self.columns {
+            None => normal,
+            Some([x, y, z]) => Vec3x8::new(
+                normal.dot(Vec3x8::splat(*x)),
+                normal.dot(Vec3x8::splat(*y)),
+                normal.dot(Vec3x8::splat(*z)),
+            ),
+        }
+    }
+
     #[inline(always)]
     pub fn rays<S: Simd>(&self, rays: &Rays<S>) -> Rays<S> {
         Rays { origin: self.point(rays.origin), direction: self.vector(rays.direction) }

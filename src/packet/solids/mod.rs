@@ -9,6 +9,8 @@ mod oracle;
 mod plane;
 mod prism;
 mod sphere;
+#[cfg(test)]
+mod tests;
 
 use crate::geometry::{self, Shape};
 use crate::lanes::{F32x8, Mask8, Simd, U32x8, Vec3x8};
@@ -30,6 +32,40 @@ pub struct Normals<S: Simd> {
     pub flat: Vec3x8<S>,
     /// Of the smooth one that it stands for; the same where there is none.
     pub smooth: Vec3x8<S>,
+}
+
+impl<S: Simd> Crossing<S> {
+    /// No crossing.
+    #[inline(always)]
+    pub fn none() -> Crossing<S> {
+        Crossing { t: F32x8::splat(f32::INFINITY), part: U32x8::splat(0) }
+    }
+
+    /// One at `t`, where that lies between two distances.
+    #[inline(always)]
+    pub fn between(t: F32x8<S>, part: U32x8<S>, after: F32x8<S>, before: F32x8<S>) -> Crossing<S> {
+        let is_one = t.gt(after) & t.lt(before);
+        Crossing { t: is_one.select(t, F32x8::splat(f32::INFINITY)), part }
+    }
+
+    /// Where there is one.
+    #[inline(always)]
+    pub fn is_one(&self) -> Mask8<S> {
+        self.t.lt(F32x8::splat(f32::INFINITY))
+    }
+
+    #[inline(always)]
+    pub fn select(mask: Mask8<S>, yes: Crossing<S>, no: Crossing<S>) -> Crossing<S> {
+        Crossing { t: mask.select(yes.t, no.t), part: mask.select_words(yes.part, no.part) }
+    }
+}
+
+impl<S: Simd> Normals<S> {
+    /// Those of a surface that is what it looks like.
+    #[inline(always)]
+    pub fn flat(normal: Vec3x8<S>) -> Normals<S> {
+        Normals { flat: normal, smooth: normal }
+    }
 }
 
 /// A solid in its own space.
@@ -89,7 +125,7 @@ impl Solid {
         match self {
             Solid::Lathe(lathe) => lathe.blocks(rays, after, before, lanes),
             Solid::Csg(csg) => csg.blocks(rays, after, before, lanes),
-            _ => self.nearest(rays, after, before, lanes).t.lt(F32x8::splat(f32::INFINITY)),
+            _ => self.nearest(rays, after, before, lanes).is_one(),
         }
     }
 

@@ -1,42 +1,40 @@
-//! TODO
+//! Planes.
+
+use glam::Vec3;
 
 use super::{Crossing, Normals};
 use crate::geometry;
 use crate::lanes::{F32x8, Mask8, Simd, U32x8, Vec3x8};
 use crate::packet::Rays;
 
-pub struct Plane {}
+/// All points behind the plane through `origin` across `normal`.
+pub struct Plane {
+    origin: Vec3,
+    normal: Vec3,
+}
 
 impl Plane {
-    pub fn new(_solid: &geometry::Plane) -> Plane {
-        todo!()
+    pub fn new(solid: &geometry::Plane) -> Plane {
+        Plane { origin: solid.origin.as_vec3(), normal: solid.normal.as_vec3() }
     }
 
     #[inline(always)]
     pub fn nearest<S: Simd>(
         &self,
-        _rays: &Rays<S>,
-        _after: F32x8<S>,
-        _before: F32x8<S>,
+        rays: &Rays<S>,
+        after: F32x8<S>,
+        before: F32x8<S>,
         _lanes: Mask8<S>,
     ) -> Crossing<S> {
-        todo!()
+        let climb = rays.direction.dot(Vec3x8::splat(self.normal));
+        let t = -self.height(rays.origin) / climb;
+        // Along the plane the distance is infinite or no number: neither lies between the two.
+        Crossing::between(t, U32x8::splat(0), after, before)
     }
 
     #[inline(always)]
-    pub fn blocks<S: Simd>(
-        &self,
-        _rays: &Rays<S>,
-        _after: F32x8<S>,
-        _before: F32x8<S>,
-        _lanes: Mask8<S>,
-    ) -> Mask8<S> {
-        todo!()
-    }
-
-    #[inline(always)]
-    pub fn contains<S: Simd>(&self, _points: Vec3x8<S>, _lanes: Mask8<S>) -> Mask8<S> {
-        todo!()
+    pub fn contains<S: Simd>(&self, points: Vec3x8<S>, _lanes: Mask8<S>) -> Mask8<S> {
+        self.height(points).lt(F32x8::splat(0.0))
     }
 
     #[inline(always)]
@@ -46,6 +44,11 @@ impl Plane {
         _parts: U32x8<S>,
         _lanes: Mask8<S>,
     ) -> Normals<S> {
-        todo!()
+        Normals::flat(Vec3x8::splat(self.normal))
+    }
+
+    #[inline(always)]
+    fn height<S: Simd>(&self, points: Vec3x8<S>) -> F32x8<S> {
+        (points - Vec3x8::splat(self.origin)).dot(Vec3x8::splat(self.normal))
     }
 }

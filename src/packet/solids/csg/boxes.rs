@@ -1,0 +1,237 @@
+//! Boxes round solids, and a tree of them.
+
+use glam::{DVec3, Vec3};
+
+use super::line::Line;
+use crate::geometry::Bounds;
+use crate::lanes::{F32x8, Mask8, Simd, Vec3x8};
+
+/// A box along the axes, a little larger than what it holds.
+#[derive(Clone, Copy)]
+pub struct Aabb {
+    min: Vec3,
+    max: Vec3,
+}
+
+/// How much larger, for solids within `bounds`: more than rounding errors.
+pub fn margin(bounds: &Bounds) -> f64 {
+    let size = (bounds.max - bounds.min).max_element();
+    3e-5 + if size.is_finite() { 1e-5 * size.max(0.0) } else { 0.0 }
+}
+
+impl Aabb {
+    pub fn new(bounds: &Bounds, margin: f64) -> Aabb {
+        Aabb { min: (bounds.min - margin).as_vec3(), max: (bounds.max + margin).as_vec3() }
+    }
+
+    /// The middle; that of endless boxes is the origin.
+    pub fn middle(&self) -> Vec3 {
+        let middle = (self.min + self.max) / 2.0;
+        if middle.is_finite() { middle } else { Vec3::ZERO }
+    }
+
+    /// Where lines enter and leave; what misses leaves before it enters.
+    #[inline(always)]
+    pub fn clip<S: Simd>(&self, line: &Line<S>) -> (F32x8<S>, F32x8<S>) {
+        let low = (Vec3x8::splat(self.min) - line.rays.origin).times(line.per_length);
+        let high = (Vec3x8::splat(self.max) - line.rays.origin).times(line.per_length);
+        // Along an axis and within a face a distance may be no number: then it counts for nothing.
+        let (near, far) = (low.min(high), low.max(high));
+        let infinity = F32x8::splat(f32::INFINITY);
+        let enter = near.x.max(near.y.max(near.z.max(-infinity)));
+        let exit = far.x.min(far.y.min(far.z.min(infinity)));
+        (enter, exit)
+    }
+
+    /// Whether points lie inside.
+    #[inline(always)]
+    pub fn holds<S: Simd>(&self, points: Vec3x8<S>) -> Mask8<S> {
+        let (min, max) = (Vec3x8::splat(self.min), Vec3x8::splat(self.max));
+        points.x.ge(min.x)
+            & points.x.le(max.x)
+            & points.y.ge(min.y)
+            & points.y.le(max.y)
+            & points.z.ge(min.z)
+            & points.z.le(max.z)
+    }
+}
+
+/// A binary tree of boxes over items.
+pub struct Hierarchy {
+    boxes: Vec<Branch>,
+}
+
+/// Its first half follows at once, the second one is at `second`; where that is 0, it is a leaf with one item.
+struct Branch {
+    aabb: Aabb,
+    second: u32,
+    item: u32,
+    /// The axis along which the halves follow each other.
+    axis: usize,
+}
+
+/// Trees are not deeper: beyond half of it they are cut in the middle, and there are not that many items.
+const DEPTH: usize = 48;
+
+/// What waits while a tree is walked.
+struct Pending {
+    stack: [u32; DEPTH],
+    count: usize,
+}
+
+impl Pending {
+    #[inline(always)]
+    fn new(is_any: bool) -> Pending {
+        Pending { stack: [0; DEPTH], count: usize::from(is_any) }
+    }
+
+    #[inline(always)]
+    fn push(&mut self, index: u32) {
+        if let Some(place) = self.stack.get_mut(self.count) {
+            *place = index;
+            self.count += 1;
+        }
+    }
+
+    #[inline(always)]
+    fn pop(&mut self) -> Option<u32> {
+        self.count = self.count.checked_sub(1)?;
+        self.stack.get(self.count).copied()
+    }
+}
+
+impl Hierarchy {
+    /// A tree over items in `bounds`, whose boxes are larger by `margin`.
+    pub fn new(bounds: &[Bounds], margin: f64) -> Hierarchy {
+        let mut items: Vec<usize> = (0..bounds.len()).collect();
+        let mut boxes = Vec::with_capacity(2 * items.len());
+        if !items.is_empty() {
+            build(bounds, &mut items, margin, 0, &mut boxes);
+        }
+        Hierarchy { boxes }
+    }
+
+    /// Visits the items whose boxes the lines of `lanes` meet between `after` and `before`, the nearer half
+    /// first. `visit` gets an item and the lanes that meet its box, and says what `before` and
+    /// `lanes` are from then on.
+    #[inline(always)]
+    pub fn along<S: Simd>(
+        &self,
+        line: &Line<S>,
+        after: F32x8<S>,
+        mut before: F32x8<S>,
+        mut lanes: Mask8<S>,
+        mut visit: impl FnMut(usize, F32x8<S>, Mask8<S>) -> (F32x8<S>, Mask8<S>),
+    ) {
+        // All lines share an order, that of one among them.
+        let first = 1_u8 << (lanes.bits().trailing_zeros() & 7);
+        let falls = line.falls.map(|falls| falls & first != 0);
+        let mut pending = Pending::new(lanes.any() && !self.boxes.is_empty());
+        while let Some(index) = pending.pop() {
+            let branch = &self.boxes[index as usize];
+            let (enter, exit) = branch.aabb.clip(line);
+            let meets = lanes & enter.max(after).le(exit.min(before));
+            if !meets.any() {
+                continue;
+            }
+            if branch.second == 0 {
+                (before, lanes) = visit(branch.item as usize, before, meets);
+                if !lanes.any() {
+                    return;
+                }
+            } else if falls[branch.axis] {
+                pending.push(index + 1);
+                pending.push(branch.second);
+            } else {
+                pending.push(branch.second);
+                pending.push(index + 1);
+            }
+        }
+    }
+
+    /// Visits the items whose boxes hold `points` of `lanes`, always in one order. `visit` gets an item and
+    /// the lanes that are in its box, and says where the points are, and in which lanes, from then on.
+    #[inline(always)]
+    pub fn around<S: Simd>(
+        &self,
+        mut points: Vec3x8<S>,
+        mut lanes: Mask8<S>,
+        mut visit: impl FnMut(usize, Mask8<S>) -> (Vec3x8<S>, Mask8<S>),
+    ) {
+        let mut pending = Pending::new(lanes.any() && !self.boxes.is_empty());
+        while let Some(index) = pending.pop() {
+            let branch = &self.boxes[index as usize];
+            let within = lanes & branch.aabb.holds(points);
+            if !within.any() {
+                continue;
+            }
+            if branch.second == 0 {
+                (points, lanes) = visit(branch.item as usize, within);
+                if !lanes.any() {
+                    return;
+                }
+            } else {
+                pending.push(branch.second);
+                pending.push(index + 1);
+            }
+        }
+    }
+}
+
+fn build(
+    bounds: &[Bounds],
+    items: &mut [usize],
+    margin: f64,
+    depth: usize,
+    boxes: &mut Vec<Branch>,
+) {
+    let whole = whole(bounds, items);
+    let index = boxes.len();
+    let aabb = Aabb::new(&whole, margin);
+    boxes.push(Branch { aabb, second: 0, item: items[0] as u32, axis: 0 });
+    if items.len() == 1 {
+        return;
+    }
+    let (axis, cut) = best_cut(bounds, items, depth);
+    sort(bounds, items, axis);
+    let (first, second) = items.split_at_mut(cut);
+    build(bounds, first, margin, depth + 1, boxes);
+    boxes[index].second = boxes.len() as u32;
+    boxes[index].axis = axis;
+    build(bounds, second, margin, depth + 1, boxes);
+}
+
+/// The axis and the number of items in the first half for which the halves' surfaces, each times its
+/// number of items, are least.
+fn best_cut(bounds: &[Bounds], items: &mut [usize], depth: usize) -> (usize, usize) {
+    let mut best = (f64::INFINITY, 0, items.len() / 2);
+    if depth >= DEPTH / 2 {
+        return (best.1, best.2);
+    }
+    for axis in 0..3 {
+        sort(bounds, items, axis);
+        for cut in 1..items.len() {
+            let (first, second) = items.split_at(cut);
+            let cost = surface(&whole(bounds, first)) * first.len() as f64
+                + surface(&whole(bounds, second)) * second.len() as f64;
+            if cost < best.0 {
+                best = (cost, axis, cut);
+            }
+        }
+    }
+    (best.1, best.2)
+}
+
+fn sort(bounds: &[Bounds], items: &mut [usize], axis: usize) {
+    let middle = |item: usize| bounds[item].min[axis] + bounds[item].max[axis];
+    items.sort_by(|a, b| middle(*a).total_cmp(&middle(*b)).then(a.cmp(b)));
+}
+
+fn whole(bounds: &[Bounds], items: &[usize]) -> Bounds {
+    items.iter().fold(Bounds::EMPTY, |whole, item| whole.union(bounds[*item]))
+}
+
+fn surface(bounds: &Bounds) -> f64 {
+    let DVec3 { x, y, z } = (bounds.max - bounds.min).max(DVec3::ZERO);
+    x * y + y * z + z * x
+}
