@@ -26,10 +26,13 @@ pub fn sin_cos_turns<S: Simd>(turns: F32x8<S>) -> (F32x8<S>, F32x8<S>) {
     let quarter = quarter.to_i32();
     let is_odd = (quarter & U32x8::splat(1)).eq(U32x8::splat(1));
     let (a, b) = (is_odd.select(cos, sin), is_odd.select(sin, cos));
-    let flip = |number: F32x8<S>, quarter: U32x8<S>| {
-        (number.bits() ^ ((quarter & U32x8::splat(2)) << 30)).as_floats()
-    };
-    (flip(a, quarter), flip(b, quarter + U32x8::splat(1)))
+    (flipped(a, quarter), flipped(b, quarter + U32x8::splat(1)))
+}
+
+/// With the other sign in the third and fourth quarter of a turn.
+#[inline(always)]
+fn flipped<S: Simd>(number: F32x8<S>, quarter: U32x8<S>) -> F32x8<S> {
+    (number.bits() ^ ((quarter & U32x8::splat(2)) << 30)).as_floats()
 }
 
 /// The logarithm to base 2 of a positive number that is not denormal.
@@ -88,9 +91,13 @@ pub fn one_by_one<S: Simd>(
     function: impl Fn(usize, f32) -> f32,
 ) -> F32x8<S> {
     let (x, lanes) = (x.store(), lanes.bits());
-    F32x8::load(&std::array::from_fn(|lane| {
-        if lanes >> lane & 1 == 1 { function(lane, x[lane]) } else { 0.0 }
-    }))
+    let mut found = [0.0; 8];
+    for (lane, found) in found.iter_mut().enumerate() {
+        if lanes >> lane & 1 == 1 {
+            *found = function(lane, x[lane]);
+        }
+    }
+    F32x8::load(&found)
 }
 
 #[cfg(test)]

@@ -39,10 +39,9 @@ impl<S: Simd> Vec3x8<S> {
     /// Vectors that are rounded one by one.
     #[inline(always)]
     pub fn load(vectors: &[DVec3; 8]) -> Vec3x8<S> {
-        let part = |part: fn(&DVec3) -> f64| {
-            F32x8::load(&std::array::from_fn(|lane| part(&vectors[lane]) as f32))
-        };
-        Vec3x8::new(part(|v| v.x), part(|v| v.y), part(|v| v.z))
+        let parts = vectors.map(|vector| vector.as_vec3());
+        let (x, y, z) = (parts.map(|v| v.x), parts.map(|v| v.y), parts.map(|v| v.z));
+        Vec3x8::new(F32x8::load(&x), F32x8::load(&y), F32x8::load(&z))
     }
 
     #[inline(always)]
@@ -81,9 +80,22 @@ impl<S: Simd> Vec3x8<S> {
         Vec3x8::new(self.x * other.x, self.y * other.y, self.z * other.z)
     }
 
+    /// One over each part.
     #[inline(always)]
-    pub fn map(self, f: impl Fn(F32x8<S>) -> F32x8<S>) -> Vec3x8<S> {
-        Vec3x8::new(f(self.x), f(self.y), f(self.z))
+    pub fn recips(self) -> Vec3x8<S> {
+        Vec3x8::new(self.x.recip(), self.y.recip(), self.z.recip())
+    }
+
+    /// The root of each part.
+    #[inline(always)]
+    pub fn roots(self) -> Vec3x8<S> {
+        Vec3x8::new(self.x.sqrt(), self.y.sqrt(), self.z.sqrt())
+    }
+
+    /// The sum of a matrix's columns, each as often as a part says.
+    #[inline(always)]
+    pub fn by_columns(self, [x, y, z]: &[Vec3x8<S>; 3]) -> Vec3x8<S> {
+        *x * self.x + *y * self.y + *z * self.z
     }
 
     #[inline(always)]

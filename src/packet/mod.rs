@@ -63,9 +63,8 @@ impl Transform {
         match &self.columns {
             None => vector,
             Some([x, y, z]) => {
-                Vec3x8::splat(*x) * vector.x
-                    + Vec3x8::splat(*y) * vector.y
-                    + Vec3x8::splat(*z) * vector.z
+                let columns = [Vec3x8::splat(*x), Vec3x8::splat(*y), Vec3x8::splat(*z)];
+                vector.by_columns(&columns)
             }
         }
     }

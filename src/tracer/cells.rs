@@ -53,13 +53,15 @@ impl Grid {
         if self.occupied == 0 {
             return;
         }
-        let mut passed = [U32x8::<S>::splat(0); 2];
-        let mut row = |index: usize, bits: U32x8<S>| {
-            passed[index / 4] = passed[index / 4] | bits << (8 * (index % 4)) as u32;
-        };
-        self.slab.rows::<S, SIDE>(rays, inverse, search.before, search.lanes, &mut row);
-        let any = passed.map(|word| word.store().into_iter().fold(0, |any, word| any | word));
-        let mut left = (u64::from(any[0]) | u64::from(any[1]) << 32) & self.occupied;
+        let mut rows = [U32x8::splat(0); 8];
+        self.slab.rows::<S, SIDE, false>(rays, inverse, search.before, search.lanes, &mut rows);
+        let passed = [
+            rows[0] | rows[1] << 8 | rows[2] << 16 | rows[3] << 24,
+            rows[4] | rows[5] << 8 | rows[6] << 16 | rows[7] << 24,
+        ];
+        let (low, high) = (passed[0].store(), passed[1].store());
+        let any = |words: [u32; 8]| u64::from(words.into_iter().fold(0, |any, word| any | word));
+        let mut left = (any(low) | any(high) << 32) & self.occupied;
         // What is near is likely to come first.
         let is_backward = rays.direction.z.lt(F32x8::splat(0.0)).bits().count_ones() > 4;
         while left != 0 {

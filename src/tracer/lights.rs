@@ -57,12 +57,13 @@ impl Lights {
         let place = upward * F32x8::splat(steps / 2.0);
         let below = place.floor().min(F32x8::splat(steps - 1.0));
         let (share, index) = (place - below, below.to_i32());
-        let between = |column: &Vec<f32>| {
-            let low = F32x8::gather(column, index);
-            low.lerp(F32x8::gather(column, index + U32x8::splat(1)), share)
-        };
         let [red, green, blue, part] = &self.daylight;
-        (Vec3x8::new(between(red), between(green), between(blue)), between(part))
+        let brightness = Vec3x8::new(
+            between(red, index, share),
+            between(green, index, share),
+            between(blue, index, share),
+        );
+        (brightness, between(part, index, share))
     }
 
     /// What mirrors at `point` see along `direction` (of length 1) when nothing stands in the way, blurred as by
@@ -133,25 +134,35 @@ impl LightBox {
         let met = point + direction * distance - center;
         // Its edges are never sharper than a hair, so that they need few samples.
         let blur = distance * roughness.max(F32x8::splat(0.01)) * F32x8::splat(SQRT_2);
-        let four = F32x8::splat(4.0);
-        let places = [0, 1].map(|side| {
-            met.dot(Vec3x8::splat(self.half[side])) * F32x8::splat(1.0 / self.lengths[side])
-        });
-        let mut near = lanes & towards.gt(zero) & distance.gt(zero);
-        for side in 0..2 {
-            // Farther off there is less than a picture can show.
-            let reach = F32x8::splat(self.lengths[side]) + four * blur;
-            near = near & places[side].abs().le(reach);
-        }
+        // Farther off than this beyond the edges there is less than a picture can show.
+        let beyond = F32x8::splat(4.0) * blur;
+        let [wide, tall] = self.lengths.map(F32x8::splat);
+        let across = met.dot(Vec3x8::splat(self.half[0])) / wide;
+        let along = met.dot(Vec3x8::splat(self.half[1])) / tall;
+        let near = lanes
+            & towards.gt(zero)
+            & distance.gt(zero)
+            & across.abs().le(wide + beyond)
+            & along.abs().le(tall + beyond);
         if self.radiance == Vec3::ZERO || !near.any() {
             return Vec3x8::zero();
         }
         let scale = blur.recip();
-        let filled = |side: usize| {
-            let length = F32x8::splat(self.lengths[side]);
-            let (low, high) = ((length - places[side]) * scale, (length + places[side]) * scale);
-            (math::erf(low) + math::erf(high)) * F32x8::splat(0.5)
-        };
-        Vec3x8::splat(self.radiance) * near.keep(filled(0) * filled(1))
+        let share = filled(wide, across, scale) * filled(tall, along, scale);
+        Vec3x8::splat(self.radiance) * near.keep(share)
     }
+}
+
+/// How much of a blurred stretch of half the `length` each way is seen at `place`.
+#[inline(always)]
+fn filled<S: Simd>(length: F32x8<S>, place: F32x8<S>, scale: F32x8<S>) -> F32x8<S> {
+    let (low, high) = ((length - place) * scale, (length + place) * scale);
+    (math::erf(low) + math::erf(high)) * F32x8::splat(0.5)
+}
+
+/// A column's numbers between those at `index` and at the next one.
+#[inline(always)]
+fn between<S: Simd>(column: &[f32], index: U32x8<S>, share: F32x8<S>) -> F32x8<S> {
+    let low = F32x8::gather(column, index);
+    low.lerp(F32x8::gather(column, index + U32x8::splat(1)), share)
 }

@@ -10,8 +10,8 @@ use crate::packet::solids::Normals;
 pub fn facing<S: Simd>(normals: Normals<S>, direction: Vec3x8<S>) -> (Vec3x8<S>, Vec3x8<S>) {
     let zero = F32x8::splat(0.0);
     let is_behind = direction.dot(normals.flat).gt(zero);
-    let turned = |normal: Vec3x8<S>| Vec3x8::select(is_behind, -normal, normal);
-    let (flat, smooth) = (turned(normals.flat), turned(normals.smooth));
+    let flat = Vec3x8::select(is_behind, -normals.flat, normals.flat);
+    let smooth = Vec3x8::select(is_behind, -normals.smooth, normals.smooth);
     // A smooth normal may face away where the polygon just does not.
     let faces = direction.dot(smooth).lt(zero);
     (flat, Vec3x8::select(faces, smooth, flat))
@@ -21,10 +21,9 @@ pub fn facing<S: Simd>(normals: Normals<S>, direction: Vec3x8<S>) -> (Vec3x8<S>,
 #[inline(always)]
 pub fn mirrored<S: Simd>(direction: Vec3x8<S>, normal: Vec3x8<S>, outward: Vec3x8<S>) -> Vec3x8<S> {
     let two = F32x8::splat(2.0);
-    let across = |normal: Vec3x8<S>| direction - normal * (two * direction.dot(normal));
-    let mirrored = across(normal);
+    let mirrored = direction - normal * (two * direction.dot(normal));
     let is_above = mirrored.dot(outward).gt(F32x8::splat(0.0));
-    Vec3x8::select(is_above, mirrored, across(outward))
+    Vec3x8::select(is_above, mirrored, direction - outward * (two * direction.dot(outward)))
 }
 
 /// Snell's law: where rays go behind a surface with `normal` on their own side, and which do: others are

@@ -85,11 +85,10 @@ impl<'a> Phong<'a> {
         seen: &mut Vec<Seen>,
         touched: Option<&mut Vec<Regions>>,
     ) -> RayCounts {
-        let place = |lane: usize| places[lane.min(places.len() - 1)];
-        let part = |part: fn(Place) -> f32| {
-            F32x8::<S>::load(&std::array::from_fn(|lane| part(place(lane))))
-        };
-        let rays = self.pinhole.rays(part(|place| place.x), part(|place| place.y));
+        let place: [Place; 8] =
+            std::array::from_fn(|lane| places[lane.min(places.len() - 1)]);
+        let x = F32x8::<S>::load(&place.map(|place| place.x));
+        let rays = self.pinhole.rays(x, F32x8::load(&place.map(|place| place.y)));
         let lanes = Mask8::from_bits((0xFF_u32 >> (LANES - places.len())) as u8);
         let (zero, one) = (F32x8::splat(0.0), F32x8::splat(1.0));
         let flight = Flight {
@@ -105,7 +104,7 @@ impl<'a> Phong<'a> {
                 one
             },
         };
-        let spread = F32x8::splat(self.spread) / part(|place| place.side);
+        let spread = F32x8::splat(self.spread) / F32x8::load(&place.map(|place| place.side));
         let mut walk = Walk {
             counts: RayCounts::default(),
             hits: None,
@@ -130,7 +129,7 @@ impl<'a> Phong<'a> {
 
     #[inline(never)]
     fn radiance<S: Simd>(&self, flight: &Flight<S>, walk: &mut Walk<S>) -> Vec3x8<S> {
-        S::run(|| {
+        S::run(#[inline(always)] || {
             let Flight { rays, lanes, .. } = flight;
             let (world, scene) = (&self.world, self.world.scene);
             let meeting = world.nearest(
@@ -283,10 +282,11 @@ impl Eye for Phong<'_> {
             #[inline(always)]
             fn run<S: Simd>(self) -> RayCounts {
                 let See(eye, samples, seen, mut touched) = self;
-                let packets = samples.chunks(LANES);
-                packets.fold(RayCounts::default(), |counts, samples| {
-                    counts + eye.packet::<S>(samples, seen, touched.as_deref_mut())
-                })
+                let mut counts = RayCounts::default();
+                for packet in samples.chunks(LANES) {
+                    counts = counts + eye.packet::<S>(packet, seen, touched.as_deref_mut());
+                }
+                counts
             }
         }
         dispatch(See(self, samples, seen, touched))

@@ -141,9 +141,15 @@ impl<S: Simd> Touched<S> {
         Touched { words: [U32x8::splat(0); WORDS] }
     }
 
+    #[inline(always)]
     pub fn store(&self) -> [Regions; 8] {
-        let words = self.words.map(U32x8::store);
-        std::array::from_fn(|lane| Regions(words.map(|word| word[lane])))
+        let mut regions = [Regions::default(); 8];
+        for (index, word) in self.words.iter().enumerate() {
+            for (regions, word) in regions.iter_mut().zip(word.store()) {
+                regions.0[index] = word;
+            }
+        }
+        regions
     }
 
     /// Adds the same regions to some lanes.
@@ -162,11 +168,10 @@ impl<S: Simd> Touched<S> {
         let number = F32x8::splat;
         let Cells { origin, side, .. } = space.cells;
         let scale = number(1.0 / side as f32);
-        let index = |at: F32x8<S>, origin: f64| {
-            ((at - number(origin as f32)) * scale + number(0.5)).floor().clamp(0.0, 7.0).to_i32()
-        };
-        let (column, row) = (index(points.x, origin.x), index(points.z, origin.y));
-        let cell = (row << 3) + column;
+        let column = (points.x - number(origin.x as f32)) * scale + number(0.5);
+        let row = (points.z - number(origin.y as f32)) * scale + number(0.5);
+        let (column, row) = (column.floor().clamp(0.0, 7.0), row.floor().clamp(0.0, 7.0));
+        let cell = (row.to_i32() << 3) + column.to_i32();
         let bit = U32x8::splat(1) << (cell & U32x8::splat(31));
         let is_high = cell.below(U32x8::splat(32));
         let zero = U32x8::splat(0);
@@ -177,37 +182,38 @@ impl<S: Simd> Touched<S> {
     /// Adds all that rays pass up to the distances `to`.
     #[inline(never)]
     pub fn add_way(&mut self, space: &Space, rays: &Rays<S>, to: F32x8<S>, lanes: Mask8<S>) {
-        S::run(|| {
-            let inverse = rays.direction.map(|part| part.recip());
+        S::run(#[inline(always)] || {
+            let inverse = rays.direction.recips();
             let Cells { origin, side, reach, heights: [low, high] } = space.cells;
-            let of = |[from, to]: [f64; 2]| [from as f32, to as f32];
             let cells = Slab {
-                origin: of([origin.x, origin.y]),
+                origin: [origin.x as f32, origin.y as f32],
                 side: side as f32,
                 reach: reach as f32,
-                heights: of([low, high]),
+                heights: [low as f32, high as f32],
             };
-            let mut row = |index: usize, bits: U32x8<S>| {
+            let zero = U32x8::splat(0);
+            let mut rows = [zero; ROWS];
+            cells.rows::<S, 8, false>(rays, inverse, to, lanes, &mut rows);
+            for (index, bits) in rows.into_iter().enumerate() {
                 let word = &mut self.words[index / 4];
                 *word = *word | bits << (8 * (index % 4)) as u32;
-            };
-            cells.rows::<S, 8>(rays, inverse, to, lanes, &mut row);
+            }
             let half = space.side / 2.0;
             // What has no end is as good as this high.
             let heights = [[-1e4, space.top], [space.top, 1e4]];
             for (layer, heights) in heights.into_iter().enumerate() {
                 let zones = Slab {
-                    origin: space.corner.map(|at| at + half),
+                    origin: [space.corner[0] + half, space.corner[1] + half],
                     side: space.side,
                     reach: half + 1e-3,
                     heights,
                 };
-                let first = CELLS + layer * LAYER;
-                let mut row = |index: usize, bits: U32x8<S>| {
-                    let word = &mut self.words[first + index / 2];
+                let mut rows = [zero; ROWS];
+                zones.rows::<S, COLUMNS, true>(rays, inverse, to, lanes, &mut rows);
+                for (index, bits) in rows.into_iter().enumerate() {
+                    let word = &mut self.words[CELLS + layer * LAYER + index / 2];
                     *word = *word | bits << (16 * (index % 2)) as u32;
-                };
-                zones.endless_rows::<S, COLUMNS>(rays, inverse, to, lanes, &mut row);
+                }
             }
         });
     }
@@ -224,40 +230,16 @@ pub struct Slab {
 }
 
 impl Slab {
-    /// Gives `row` each row's boxes that rays pass up to `to`, as bits.
+    /// Which of each row's `N` boxes rays pass up to `to`, as bits. If they are `ENDLESS`, boxes at the borders
+    /// have no end.
     #[inline(always)]
-    pub fn rows<S: Simd, const N: usize>(
+    pub fn rows<S: Simd, const N: usize, const ENDLESS: bool>(
         &self,
         rays: &Rays<S>,
         inverse: Vec3x8<S>,
         to: F32x8<S>,
         lanes: Mask8<S>,
-        row: &mut impl FnMut(usize, U32x8<S>),
-    ) {
-        self.each::<S, N, false>(rays, inverse, to, lanes, row);
-    }
-
-    /// The same, with boxes at the borders that have no end.
-    #[inline(always)]
-    pub fn endless_rows<S: Simd, const N: usize>(
-        &self,
-        rays: &Rays<S>,
-        inverse: Vec3x8<S>,
-        to: F32x8<S>,
-        lanes: Mask8<S>,
-        row: &mut impl FnMut(usize, U32x8<S>),
-    ) {
-        self.each::<S, N, true>(rays, inverse, to, lanes, row);
-    }
-
-    #[inline(always)]
-    fn each<S: Simd, const N: usize, const ENDLESS: bool>(
-        &self,
-        rays: &Rays<S>,
-        inverse: Vec3x8<S>,
-        to: F32x8<S>,
-        lanes: Mask8<S>,
-        row: &mut impl FnMut(usize, U32x8<S>),
+        rows: &mut [U32x8<S>; ROWS],
     ) {
         let (o, d) = (rays.origin, rays.direction);
         let number = F32x8::splat;
@@ -312,7 +294,7 @@ impl Slab {
             let (first, behind) = (first.floor(), behind.floor());
             let bits = (one << behind.to_i32()) - (one << first.to_i32());
             let is_any = is_in & lanes & first.lt(behind);
-            row(index, is_any.select_words(bits, U32x8::splat(0)));
+            rows[index] = is_any.select_words(bits, U32x8::splat(0));
         }
     }
 }

@@ -54,9 +54,6 @@ impl<S: Simd> Sequences<S> {
     pub fn pair(&self, purpose: u32) -> (F32x8<S>, F32x8<S>) {
         let seed = mix8(self.pixel ^ U32x8::splat(purpose.wrapping_mul(0x85EB_CA6B)));
         let index = scrambled8(self.index.reverse_bits(), seed).reverse_bits();
-        let number = |bits: U32x8<S>| {
-            (bits.reverse_bits() >> 8).i32_to_f32() * F32x8::splat(1.0 / 16_777_216.0)
-        };
         let first = scrambled8(index, mix8(seed ^ U32x8::splat(1)));
         // Bit i of the reversed number is the sum of all bits j whose row of Pascal's triangle is odd at i:
         // those that have all bits of i.
@@ -68,8 +65,14 @@ impl<S: Simd> Sequences<S> {
             second = second ^ ((second >> (1 << step)) & U32x8::splat(lacking));
         }
         let second = scrambled8(second, mix8(seed ^ U32x8::splat(2)));
-        (number(first), number(second))
+        (number8(first), number8(second))
     }
+}
+
+/// Of reversed bits a number from 0 to below 1.
+#[inline(always)]
+fn number8<S: Simd>(reversed: U32x8<S>) -> F32x8<S> {
+    (reversed.reverse_bits() >> 8).i32_to_f32() * F32x8::splat(1.0 / 16_777_216.0)
 }
 
 /// [`mix`] in lanes.

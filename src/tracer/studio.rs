@@ -139,11 +139,10 @@ impl<'a> Studio<'a> {
         touched: Option<&mut Vec<Regions>>,
     ) -> RayCounts {
         let sample = |lane: usize| samples[lane.min(samples.len() - 1)];
-        let part = |part: fn(Sample) -> u32| {
-            U32x8::<S>::load(&std::array::from_fn(|lane| part(sample(lane))))
-        };
-        let (x, y) = (part(|sample| sample.spot[0]), part(|sample| sample.spot[1]));
-        let numbers = Sequences::new(x, y, part(|sample| sample.index));
+        let sample: [Sample; 8] = std::array::from_fn(sample);
+        let x = U32x8::<S>::load(&sample.map(|sample| sample.spot[0]));
+        let y = U32x8::load(&sample.map(|sample| sample.spot[1]));
+        let numbers = Sequences::new(x, y, U32x8::load(&sample.map(|sample| sample.index)));
         let lanes = Mask8::from_bits((0xFF_u32 >> (LANES - samples.len())) as u8);
         let rays = if self.world.scene.camera.has_lens() {
             self.rays_through_lens(samples)
@@ -221,7 +220,7 @@ impl<'a> Studio<'a> {
         meeting: &Meeting<S>,
         draw: &mut Draw<S>,
     ) -> Vec3x8<S> {
-        S::run(|| {
+        S::run(#[inline(always)] || {
             let Flight { rays, lanes, .. } = flight;
             let (world, materials) = (&self.world, &self.world.materials);
             let seen = (flight.length + meeting.t) * flight.spread;
@@ -282,7 +281,7 @@ impl<'a> Studio<'a> {
         meet: &Meet<S>,
         draw: &mut Draw<S>,
     ) -> Vec3x8<S> {
-        S::run(|| {
+        S::run(#[inline(always)] || {
             let zero = F32x8::splat(0.0);
             let from = flight.depth * purpose::STEP;
             let shaded = flight.lanes & flight.weight.ge(F32x8::splat(SHADOWS_FROM as f32));
@@ -358,7 +357,7 @@ impl<'a> Studio<'a> {
         share: Vec3x8<S>,
         draw: &mut Draw<S>,
     ) -> Vec3x8<S> {
-        S::run(|| {
+        S::run(#[inline(always)] || {
             let lanes = flight.lanes;
             let roughness = self.world.materials.roughness(meet.material);
             let exact = mirrored(flight.rays.direction, meet.normal, meet.outward);
@@ -409,7 +408,7 @@ impl<'a> Studio<'a> {
     /// What is seen in glass, and through it.
     #[inline(never)]
     fn glass<S: Simd>(&self, flight: &Flight<S>, meet: &Meet<S>, draw: &mut Draw<S>) -> Vec3x8<S> {
-        S::run(|| {
+        S::run(#[inline(always)] || {
             let (world, lanes) = (&self.world, flight.lanes);
             let (zero, one) = (F32x8::splat(0.0), F32x8::splat(1.0));
             let clearness = world.materials.transparency(meet.material);
@@ -438,7 +437,7 @@ impl<'a> Studio<'a> {
             let weight = flight.weight * share;
             let depth = flight.depth + 1;
             // Each of a body's two surfaces takes half of what its colour takes.
-            let tint = meet.color.map(|channel| channel.max(zero).sqrt());
+            let tint = meet.color.max(Vec3x8::zero()).roots();
             let least = F32x8::splat(world.scene.min_weight as f32);
             let mut followed = Mask8::no_lanes();
             let mut seen = Vec3x8::zero();
@@ -503,10 +502,11 @@ impl Eye for Studio<'_> {
             #[inline(always)]
             fn run<S: Simd>(self) -> RayCounts {
                 let See(eye, samples, seen, mut touched) = self;
-                let packets = samples.chunks(LANES);
-                packets.fold(RayCounts::default(), |counts, samples| {
-                    counts + eye.packet::<S>(samples, seen, touched.as_deref_mut())
-                })
+                let mut counts = RayCounts::default();
+                for packet in samples.chunks(LANES) {
+                    counts = counts + eye.packet::<S>(packet, seen, touched.as_deref_mut());
+                }
+                counts
             }
         }
         dispatch(See(self, samples, seen, touched))

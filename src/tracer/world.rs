@@ -146,9 +146,11 @@ impl<'a> World<'a> {
     /// Whether the body that rays meet has no end.
     #[inline(always)]
     pub fn is_endless<S: Simd>(&self, meeting: &Meeting<S>) -> Mask8<S> {
-        self.endless.iter().fold(Mask8::no_lanes(), |lanes, index| {
-            lanes | meeting.body.eq(U32x8::splat(*index as u32))
-        })
+        let mut lanes = Mask8::no_lanes();
+        for index in &self.endless {
+            lanes = lanes | meeting.body.eq(U32x8::splat(*index as u32));
+        }
+        lanes
     }
 
     /// The nearest body in front of `rays` up to the distances `before`.
@@ -160,10 +162,10 @@ impl<'a> World<'a> {
         lanes: Mask8<S>,
         touched: &mut Option<Touched<S>>,
     ) -> Meeting<S> {
-        S::run(|| {
+        S::run(#[inline(always)] || {
             let nothing = U32x8::splat(NOTHING);
             let mut found = Meeting { t: before, body: nothing, part: nothing };
-            self.visit(rays, Search { lanes, before }, |index, lanes, search| {
+            self.visit(rays, Search { lanes, before }, #[inline(always)] |index, lanes, search| {
                 let body = &self.bodies[index];
                 // A hair more, so that what is in one place is compared.
                 let limit = found.t * F32x8::splat(1.0 + 2.0 * f32::EPSILON);
@@ -193,9 +195,9 @@ impl<'a> World<'a> {
         lanes: Mask8<S>,
         touched: &mut Option<Touched<S>>,
     ) -> F32x8<S> {
-        S::run(|| {
+        S::run(#[inline(always)] || {
             let mut share = lanes.keep(F32x8::splat(1.0));
-            self.visit(rays, Search { lanes, before: distance }, |index, lanes, search| {
+            self.visit(rays, Search { lanes, before: distance }, #[inline(always)] |index, lanes, search| {
                 let body = &self.bodies[index];
                 if body.is_transparent {
                     let passed = self.passed(body, rays, distance, lanes);
@@ -228,7 +230,7 @@ impl<'a> World<'a> {
         distance: F32x8<S>,
         lanes: Mask8<S>,
     ) -> F32x8<S> {
-        S::run(|| {
+        S::run(#[inline(always)] || {
             let mut share = F32x8::splat(1.0);
             let mut after = F32x8::splat(0.0);
             let mut lanes = lanes;
@@ -263,7 +265,7 @@ impl<'a> World<'a> {
                 look(*index, search.lanes, &mut search);
             }
         }
-        let inverse = rays.direction.map(|part| part.recip());
+        let inverse = rays.direction.recips();
         for index in &self.loose {
             let body = &self.bodies[*index];
             let near = search.lanes & enters(rays, inverse, [body.min, body.max], search.before);
@@ -292,7 +294,7 @@ impl<'a> World<'a> {
             color: zero,
             material: U32x8::splat(0),
         };
-        self.each(meeting, lanes, |body, lanes| {
+        self.each(meeting, lanes, #[inline(always)] |body, lanes| {
             self.sight_of(body, point, meeting.part, seen, lanes, &mut sight);
             if let Some(touched) = touched
                 && body.is_painted
@@ -314,7 +316,7 @@ impl<'a> World<'a> {
         lanes: Mask8<S>,
         sight: &mut Sight<S>,
     ) {
-        S::run(|| {
+        S::run(#[inline(always)] || {
             let normals = body.normals(point, part, lanes);
             let own = body.to_own.point(point - normals.flat * F32x8::splat(HAIR));
             let Look { color, material } = body.surface.look(own, seen, lanes);
@@ -336,7 +338,7 @@ impl<'a> World<'a> {
     ) -> U32x8<S> {
         let point = rays.at(meeting.t);
         let mut found = U32x8::splat(0);
-        self.each(meeting, lanes, |body, lanes| {
+        self.each(meeting, lanes, #[inline(always)] |body, lanes| {
             let material = if body.surface.is_uniform() {
                 U32x8::splat(body.materials)
             } else {
@@ -370,7 +372,7 @@ impl<'a> World<'a> {
     /// The refractive index at `points`: that of all that is transparent, where it lies inside any of
     /// it (Turek 2008, 4.2).
     pub fn index_at<S: Simd>(&self, points: Vec3x8<S>, lanes: Mask8<S>) -> F32x8<S> {
-        S::run(|| {
+        S::run(#[inline(always)] || {
             let mut inside = Mask8::no_lanes();
             for index in &self.transparent {
                 let body = &self.bodies[*index];
@@ -464,13 +466,11 @@ impl Body {
         let Some([x, y, z]) = self.normals else {
             return normals;
         };
-        let carry = |normal: Vec3x8<S>| {
-            let carried = Vec3x8::splat(x) * normal.x
-                + Vec3x8::splat(y) * normal.y
-                + Vec3x8::splat(z) * normal.z;
-            carried.normalized()
-        };
-        Normals { flat: carry(normals.flat), smooth: carry(normals.smooth) }
+        let columns = [Vec3x8::splat(x), Vec3x8::splat(y), Vec3x8::splat(z)];
+        Normals {
+            flat: normals.flat.by_columns(&columns).normalized(),
+            smooth: normals.smooth.by_columns(&columns).normalized(),
+        }
     }
 }
 
