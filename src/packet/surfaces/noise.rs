@@ -41,7 +41,7 @@ impl Wave {
     #[inline(always)]
     fn noise<S: Simd>(&self, points: Vec3x8<S>, lanes: Mask8<S>) -> F32x8<S> {
         let places = points.times(Vec3x8::splat(self.scale)) + Vec3x8::splat(self.within);
-        let floor = places.map(F32x8::floor);
+        let floor = Vec3x8::new(places.x.floor(), places.y.floor(), places.z.floor());
         let within = Within::new(places - floor);
         let [x, y, z] = self.cell;
         let cell = [
@@ -85,7 +85,8 @@ impl<S: Simd> Within<S> {
     #[inline(always)]
     fn new(from_near: Vec3x8<S>) -> Within<S> {
         let from_far = from_near - Vec3x8::grey(F32x8::splat(1.0));
-        Within { from: [from_near, from_far], fade: from_near.map(fade) }
+        let fade = Vec3x8::new(fade(from_near.x), fade(from_near.y), fade(from_near.z));
+        Within { from: [from_near, from_far], fade }
     }
 
     /// What lies between the numbers at the eight corners, each of which is asked for with the way from it to
