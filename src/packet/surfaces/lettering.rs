@@ -113,7 +113,7 @@ impl Label {
     fn cover<S: Simd>(&self, place: [F32x8<S>; 2], seen: F32x8<S>, lanes: Mask8<S>) -> F32x8<S> {
         let x = F32x8::splat(self.origin.x) + dot(place, self.right);
         let y = F32x8::splat(self.origin.y) + dot(place, self.up);
-        let [aside, below, above] = REACH.map(|reach| reach as f32);
+        let [aside, below, above] = [REACH[0] as f32, REACH[1] as f32, REACH[2] as f32];
         let blur = seen * F32x8::splat(0.5 / SIZE as f32);
         let is_near = x.abs().le(F32x8::splat(aside) + blur)
             & (-y).le(F32x8::splat(below) + blur)

@@ -11,8 +11,6 @@ mod texture;
 mod timber;
 
 #[cfg(test)]
-mod bench;
-#[cfg(test)]
 mod tests;
 
 use glam::Vec2;

@@ -71,7 +71,7 @@ impl Timber {
         }
         let ring = radius.floor();
         let t = radius - ring;
-        let [end, width] = LATE.map(|part| part as f32);
+        let (end, width) = (LATE[0] as f32, LATE[1] as f32);
         let one = F32x8::splat(1.0);
         let late = t * t * (one - smooth((t - F32x8::splat(end)) * F32x8::splat(width.recip())));
         let year = share(self.seed, ring.to_i32());
