@@ -21,9 +21,10 @@ pub struct Lettering {
 
 /// What is written beside a square.
 struct Label {
-    /// The glyph's own place of the board's middle, and a step to the right and one away from White there.
+    /// The board's middle as the glyph is drawn, and the ways to its right and upwards on the board.
     origin: Vec2,
-    steps: [Vec2; 2],
+    right: Vec2,
+    up: Vec2,
     strokes: Vec<Stroke>,
 }
 
@@ -75,16 +76,21 @@ impl Lettering {
             return ground;
         }
         let is_far = is_file.select(z, -x).gt(F32x8::splat(0.0));
-        let side = |file: u32, rank: u32| {
-            is_file.select_words(U32x8::splat(8 * file), U32x8::splat(8 * rank))
-        };
-        let first = is_far.select_words(side(2, 3), side(0, 1));
+        let [white, kingside, black, queenside] =
+            [U32x8::splat(0), U32x8::splat(8), U32x8::splat(16), U32x8::splat(24)];
+        let far = is_file.select_words(black, queenside);
+        let first = is_far.select_words(far, is_file.select_words(white, kingside));
         let mut cover = F32x8::splat(0.0);
-        for_each_kind(first + number.to_i32(), near, |label, these| {
-            if let Some(Some(label)) = self.labels.get(label) {
-                cover = these.select(label.cover(x, z, places.seen, these), cover);
-            }
-        });
+        for_each_kind(
+            first + number.to_i32(),
+            near,
+            #[inline(always)]
+            |label, these| {
+                if let Some(Some(label)) = self.labels.get(label) {
+                    cover = these.select(label.cover([x, z], places.seen, these), cover);
+                }
+            },
+        );
         ground.lerp(Vec3x8::splat(self.ink), cover)
     }
 }
@@ -92,30 +98,22 @@ impl Lettering {
 impl Label {
     fn new(label: &coordinates::Label) -> Label {
         let origin = label.point(DVec2::ZERO);
-        let step = |way| (label.point(way) - origin).as_vec2();
+        let step = |way| label.point(way) - origin;
+        let (kingwards, away) = (step(DVec2::X), step(DVec2::Y));
         Label {
             origin: origin.as_vec2(),
-            steps: [step(DVec2::X), step(DVec2::Y)],
+            right: DVec2::new(kingwards.x, away.x).as_vec2(),
+            up: DVec2::new(kingwards.y, away.y).as_vec2(),
             strokes: label.strokes().iter().map(Stroke::new).collect(),
         }
     }
 
     /// How much ink there is at places from the board's middle, 0 to 1.
     #[inline(always)]
-    fn cover<S: Simd>(
-        &self,
-        x: F32x8<S>,
-        z: F32x8<S>,
-        seen: F32x8<S>,
-        lanes: Mask8<S>,
-    ) -> F32x8<S> {
-        let [right, away] = self.steps;
-        let at = |origin: f32, right: f32, away: f32| {
-            F32x8::splat(origin) + x * F32x8::splat(right) + z * F32x8::splat(away)
-        };
-        let x = at(self.origin.x, right.x, away.x);
-        let y = at(self.origin.y, right.y, away.y);
-        let [aside, below, above] = REACH.map(|reach| reach as f32);
+    fn cover<S: Simd>(&self, place: [F32x8<S>; 2], seen: F32x8<S>, lanes: Mask8<S>) -> F32x8<S> {
+        let x = F32x8::splat(self.origin.x) + dot(place, self.right);
+        let y = F32x8::splat(self.origin.y) + dot(place, self.up);
+        let [aside, below, above] = [REACH[0] as f32, REACH[1] as f32, REACH[2] as f32];
         let blur = seen * F32x8::splat(0.5 / SIZE as f32);
         let is_near = x.abs().le(F32x8::splat(aside) + blur)
             & (-y).le(F32x8::splat(below) + blur)
@@ -126,7 +124,7 @@ impl Label {
         }
         let mut nearest = F32x8::splat(f32::INFINITY);
         for stroke in &self.strokes {
-            nearest = nearest.min(stroke.distance(x, y));
+            nearest = nearest.min(stroke.distance([x, y]));
         }
         let outside = (nearest - F32x8::splat(PEN as f32)) * F32x8::splat(SIZE as f32);
         let cover = F32x8::splat(0.5) - outside / seen.max(F32x8::splat(f32::MIN_POSITIVE));
@@ -164,25 +162,35 @@ impl Stroke {
 
     /// How far points lie from the stroke's middle.
     #[inline(always)]
-    fn distance<S: Simd>(&self, x: F32x8<S>, y: F32x8<S>) -> F32x8<S> {
-        let from = |point: Vec2| (x - F32x8::splat(point.x), y - F32x8::splat(point.y));
-        let length = |(x, y): (F32x8<S>, F32x8<S>)| (x * x + y * y).sqrt();
-        let dot = |(x, y): (F32x8<S>, F32x8<S>), way: Vec2| {
-            x * F32x8::splat(way.x) + y * F32x8::splat(way.y)
-        };
+    fn distance<S: Simd>(&self, point: [F32x8<S>; 2]) -> F32x8<S> {
         match self {
-            Stroke::Line { from: begin, along, per_length2 } => {
-                let (x, y) = from(*begin);
-                let share = (dot((x, y), *along) * F32x8::splat(*per_length2)).clamp(0.0, 1.0);
-                length((x - share * F32x8::splat(along.x), y - share * F32x8::splat(along.y)))
+            Stroke::Line { from, along, per_length2 } => {
+                let [x, y] = beyond(point, *from);
+                let share = (dot([x, y], *along) * F32x8::splat(*per_length2)).clamp(0.0, 1.0);
+                length([x - share * F32x8::splat(along.x), y - share * F32x8::splat(along.y)])
             }
-            Stroke::Arc { center, radius, towards, cos, ends } => {
-                let aside = from(*center);
+            Stroke::Arc { center, radius, towards, cos, ends: [first, last] } => {
+                let aside = beyond(point, *center);
                 let away = length(aside);
                 let is_beside = dot(aside, *towards).ge(away * F32x8::splat(*cos));
-                let [first, last] = ends.map(|end| length(from(end)));
-                is_beside.select((away - F32x8::splat(*radius)).abs(), first.min(last))
+                let to_end = length(beyond(point, *first)).min(length(beyond(point, *last)));
+                is_beside.select((away - F32x8::splat(*radius)).abs(), to_end)
             }
         }
     }
+}
+
+#[inline(always)]
+fn beyond<S: Simd>([x, y]: [F32x8<S>; 2], from: Vec2) -> [F32x8<S>; 2] {
+    [x - F32x8::splat(from.x), y - F32x8::splat(from.y)]
+}
+
+#[inline(always)]
+fn dot<S: Simd>([x, y]: [F32x8<S>; 2], way: Vec2) -> F32x8<S> {
+    x * F32x8::splat(way.x) + y * F32x8::splat(way.y)
+}
+
+#[inline(always)]
+fn length<S: Simd>([x, y]: [F32x8<S>; 2]) -> F32x8<S> {
+    (x * x + y * y).sqrt()
 }

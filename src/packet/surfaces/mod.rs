@@ -77,12 +77,12 @@ impl Surface {
             Pieces::Chequer { origin, per_side, textures } => {
                 let is_odd = is_odd(points, *origin, *per_side);
                 let places = Places { on_body: points, points, seen };
-                let color = |texture: &Texture, lanes: Mask8<S>| {
-                    if lanes.any() { texture.color(&places, lanes) } else { Vec3x8::zero() }
-                };
-                let [even, odd] = textures;
-                let colors = [color(even, lanes.but(is_odd)), color(odd, lanes & is_odd)];
-                let color = Vec3x8::select(is_odd, colors[1], colors[0]);
+                let mut color = Vec3x8::zero();
+                for (texture, these) in textures.iter().zip([lanes.but(is_odd), lanes & is_odd]) {
+                    if these.any() {
+                        color = Vec3x8::select(these, texture.color(&places, these), color);
+                    }
+                }
                 Look { color, material: number(is_odd) }
             }
             Pieces::Board(joinery) => joinery.look(points, seen, lanes),
@@ -112,10 +112,9 @@ impl Surface {
 /// Where the sum of a chequer's column and row is odd.
 #[inline(always)]
 fn is_odd<S: Simd>(points: Vec3x8<S>, origin: Vec2, per_side: f32) -> Mask8<S> {
-    let cell = |at: F32x8<S>, origin: f32| {
-        ((at - F32x8::splat(origin)) * F32x8::splat(per_side)).floor().to_i32()
-    };
-    let sum = cell(points.x, origin.x) + cell(points.z, origin.y);
+    let column = (points.x - F32x8::splat(origin.x)) * F32x8::splat(per_side);
+    let row = (points.z - F32x8::splat(origin.y)) * F32x8::splat(per_side);
+    let sum = column.floor().to_i32() + row.floor().to_i32();
     (sum & U32x8::splat(1)).eq(U32x8::splat(1))
 }
 

@@ -29,64 +29,102 @@ impl Wave {
         }
     }
 
-    /// Smooth, within −1 to 1, mean 0.
+    /// Smooth, within −1 to 1, mean 0. (A function for itself: it is large, and asked in many places.)
+    #[inline(never)]
+    pub fn at<S: Simd>(&self, points: &Vec3x8<S>, lanes: Mask8<S>) -> F32x8<S> {
+        S::run(
+            #[inline(always)]
+            || self.noise(*points, lanes),
+        )
+    }
+
     #[inline(always)]
-    pub fn at<S: Simd>(&self, points: Vec3x8<S>, lanes: Mask8<S>) -> F32x8<S> {
+    fn noise<S: Simd>(&self, points: Vec3x8<S>, lanes: Mask8<S>) -> F32x8<S> {
         let places = points.times(Vec3x8::splat(self.scale)) + Vec3x8::splat(self.within);
-        let floor = places.map(F32x8::floor);
-        let within = places - floor;
-        let fade = within.map(|t| {
-            let inner = t * (t * F32x8::splat(6.0) - F32x8::splat(15.0)) + F32x8::splat(10.0);
-            t * t * t * inner
-        });
-        let [x, y, z] = self.cell.map(U32x8::splat);
-        let cell = [floor.x.to_i32() + x, floor.y.to_i32() + y, floor.z.to_i32() + z];
+        let floor = Vec3x8::new(places.x.floor(), places.y.floor(), places.z.floor());
+        let within = Within::new(places - floor);
+        let [x, y, z] = self.cell;
+        let cell = [
+            floor.x.to_i32() + U32x8::splat(x),
+            floor.y.to_i32() + U32x8::splat(y),
+            floor.z.to_i32() + U32x8::splat(z),
+        ];
         // Neighbours are mostly in one cell: then its corners are hashed in lanes, not the lanes' corners.
         // What comes out differs by no more than the sign of a zero, which the sum takes away.
         let noise = match shared(cell, lanes) {
             Some(cell) => {
                 let gradients = Gradients::of(cell);
-                between(fade, |corner| gradients.dot(corner, beyond(within, corner)))
+                within.between(
+                    #[inline(always)]
+                    |corner, to| gradients.dot(corner, to),
+                )
             }
             None => {
                 let corners = Corners::of(cell);
-                between(fade, |corner| corners.slopes(corner).dot(beyond(within, corner)))
+                within.between(
+                    #[inline(always)]
+                    |corner, to| corners.slopes(corner).dot(to),
+                )
             }
         };
         noise + F32x8::splat(0.0)
     }
 }
 
-/// Which of a cell's two ends along each axis is meant: corners are numbered by bits.
-fn ends(corner: usize) -> [usize; 3] {
-    [corner & 1, corner >> 1 & 1, corner >> 2]
+/// Along each axis, whether a corner of a cell is at its end.
+const ENDS: [[u32; 8]; 3] =
+    [[0, 1, 0, 1, 0, 1, 0, 1], [0, 0, 1, 1, 0, 0, 1, 1], [0, 0, 0, 0, 1, 1, 1, 1]];
+
+/// A place in a cell, seen from its two ends along each axis.
+struct Within<S: Simd> {
+    from: [Vec3x8<S>; 2],
+    fade: Vec3x8<S>,
 }
 
-/// From a corner of the cell to a place in it.
-#[inline(always)]
-fn beyond<S: Simd>(within: Vec3x8<S>, corner: usize) -> Vec3x8<S> {
-    let from = |place: F32x8<S>, end: usize| {
-        if end == 1 { place - F32x8::splat(1.0) } else { place }
-    };
-    let [x, y, z] = ends(corner);
-    Vec3x8::new(from(within.x, x), from(within.y, y), from(within.z, z))
+impl<S: Simd> Within<S> {
+    #[inline(always)]
+    fn new(from_near: Vec3x8<S>) -> Within<S> {
+        let from_far = from_near - Vec3x8::grey(F32x8::splat(1.0));
+        let fade = Vec3x8::new(fade(from_near.x), fade(from_near.y), fade(from_near.z));
+        Within { from: [from_near, from_far], fade }
+    }
+
+    /// What lies between the numbers at the eight corners, each of which is asked for with the way from it to
+    /// the place.
+    #[inline(always)]
+    fn between(&self, corner: impl Fn(usize, Vec3x8<S>) -> F32x8<S>) -> F32x8<S> {
+        let near = self.edge(0, &corner).lerp(self.edge(2, &corner), self.fade.y);
+        let far = self.edge(4, &corner).lerp(self.edge(6, &corner), self.fade.y);
+        near.lerp(far, self.fade.z)
+    }
+
+    /// What lies between a corner and the next one along x.
+    #[inline(always)]
+    fn edge(&self, first: usize, corner: &impl Fn(usize, Vec3x8<S>) -> F32x8<S>) -> F32x8<S> {
+        let (y, z) = (self.from[first >> 1 & 1].y, self.from[first >> 2].z);
+        let near = corner(first, Vec3x8::new(self.from[0].x, y, z));
+        near.lerp(corner(first + 1, Vec3x8::new(self.from[1].x, y, z)), self.fade.x)
+    }
 }
 
-/// What lies between the numbers at the eight corners.
 #[inline(always)]
-fn between<S: Simd>(fade: Vec3x8<S>, corner: impl Fn(usize) -> F32x8<S>) -> F32x8<S> {
-    let along_x = |first| corner(first).lerp(corner(first + 1), fade.x);
-    let along_y = |first| along_x(first).lerp(along_x(first + 2), fade.y);
-    along_y(0).lerp(along_y(4), fade.z)
+fn fade<S: Simd>(t: F32x8<S>) -> F32x8<S> {
+    let inner = t * (t * F32x8::splat(6.0) - F32x8::splat(15.0)) + F32x8::splat(10.0);
+    t * t * t * inner
 }
 
 /// The cell of all `lanes` where they have one in common.
 #[inline(always)]
 fn shared<S: Simd>(cell: [U32x8<S>; 3], lanes: Mask8<S>) -> Option<[U32x8<S>; 3]> {
     let first = lanes.bits().trailing_zeros() as usize % 8;
-    let [x, y, z] = cell.map(|cell| U32x8::splat(cell.store()[first]));
-    let are_there = cell[0].eq(x) & cell[1].eq(y) & cell[2].eq(z);
-    (!lanes.but(are_there).any()).then_some([x, y, z])
+    let [x, y, z] = cell;
+    let one = [
+        U32x8::splat(x.store()[first]),
+        U32x8::splat(y.store()[first]),
+        U32x8::splat(z.store()[first]),
+    ];
+    let are_there = x.eq(one[0]) & y.eq(one[1]) & z.eq(one[2]);
+    if lanes.but(are_there).any() { None } else { Some(one) }
 }
 
 /// The gradients at the corners of one cell.
@@ -94,18 +132,21 @@ struct Gradients([[f32; 8]; 3]);
 
 impl Gradients {
     #[inline(always)]
-    fn of<S: Simd>(cell: [U32x8<S>; 3]) -> Gradients {
-        let ends: [[u32; 8]; 3] =
-            std::array::from_fn(|axis| std::array::from_fn(|corner| ends(corner)[axis] as u32));
-        let product =
-            |axis: usize| Wide::product(cell[axis] + U32x8::load(&ends[axis]), AXES[axis]);
-        Gradients(Slopes::of(product(0) ^ product(1) ^ product(2)).components().map(F32x8::store))
+    fn of<S: Simd>([x, y, z]: [U32x8<S>; 3]) -> Gradients {
+        let [right, above, behind] = ENDS;
+        let x = Wide::product(x + U32x8::load(&right), AXES[0]);
+        let y = Wide::product(y + U32x8::load(&above), AXES[1]);
+        let z = Wide::product(z + U32x8::load(&behind), AXES[2]);
+        let [x, y, z] = Slopes::of(x ^ y ^ z).components();
+        Gradients([x.store(), y.store(), z.store()])
     }
 
     #[inline(always)]
     fn dot<S: Simd>(&self, corner: usize, to: Vec3x8<S>) -> F32x8<S> {
-        let [x, y, z] = [0, 1, 2].map(|axis: usize| F32x8::splat(self.0[axis][corner]));
-        x * to.x + y * to.y + z * to.z
+        let Gradients([x, y, z]) = self;
+        F32x8::splat(x[corner]) * to.x
+            + F32x8::splat(y[corner]) * to.y
+            + F32x8::splat(z[corner]) * to.z
     }
 }
 
@@ -114,17 +155,16 @@ struct Corners<S: Simd>([[Wide<S>; 2]; 3]);
 
 impl<S: Simd> Corners<S> {
     #[inline(always)]
-    fn of(cell: [U32x8<S>; 3]) -> Corners<S> {
-        Corners(std::array::from_fn(|axis| {
-            let product = Wide::product(cell[axis], AXES[axis]);
-            [product, product.plus(AXES[axis])]
-        }))
+    fn of([x, y, z]: [U32x8<S>; 3]) -> Corners<S> {
+        let [x, y, z] =
+            [Wide::product(x, AXES[0]), Wide::product(y, AXES[1]), Wide::product(z, AXES[2])];
+        Corners([[x, x.plus(AXES[0])], [y, y.plus(AXES[1])], [z, z.plus(AXES[2])]])
     }
 
     #[inline(always)]
     fn slopes(&self, corner: usize) -> Slopes<S> {
-        let [x, y, z] = ends(corner);
-        Slopes::of(self.0[0][x] ^ self.0[1][y] ^ self.0[2][z])
+        let Corners([x, y, z]) = self;
+        Slopes::of(x[corner & 1] ^ y[corner >> 1 & 1] ^ z[corner >> 2])
     }
 }
 
@@ -274,7 +314,7 @@ impl Fractal {
         let mut sum = F32x8::splat(0.0);
         let mut strength = 1.0;
         for octave in &self.octaves {
-            sum += octave.at(points, lanes) * F32x8::splat(strength);
+            sum += octave.at(&points, lanes) * F32x8::splat(strength);
             strength *= 0.5;
         }
         sum
@@ -298,9 +338,9 @@ mod tests {
             let Ask(wave, points) = self;
             let points = Vec3x8::<S>::load(&points);
             let alone = std::array::from_fn(|lane| {
-                wave.at(points, Mask8::from_bits(1 << lane)).store()[lane]
+                wave.at(&points, Mask8::from_bits(1 << lane)).store()[lane]
             });
-            [wave.at(points, Mask8::all_lanes()).store(), alone]
+            [wave.at(&points, Mask8::all_lanes()).store(), alone]
         }
     }
 

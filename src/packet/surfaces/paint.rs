@@ -61,20 +61,23 @@ impl Painting {
         lanes: Mask8<S>,
     ) -> Vec3x8<S> {
         let per_square = F32x8::splat(1.0 / SQUARE as f32);
-        let place = [points.x * per_square, points.z * per_square];
-        let cell = place.map(|place| (place + F32x8::splat(0.5)).floor());
-        let is_on = |cell: F32x8<S>| cell.ge(F32x8::splat(0.0)) & cell.le(F32x8::splat(7.0));
-        let square = (cell[1].to_i32() << 3) + cell[0].to_i32();
-        let [low, high] = self.painted.map(U32x8::splat);
-        let bits = (square >> 5).eq(U32x8::splat(1)).select_words(high, low);
+        let (x, y) = (points.x * per_square, points.z * per_square);
+        let half = F32x8::splat(0.5);
+        let (file, rank) = ((x + half).floor(), (y + half).floor());
+        let square = (rank.to_i32() << 3) + file.to_i32();
+        let [low, high] = self.painted;
+        let is_high = (square >> 5).eq(U32x8::splat(1));
+        let bits = is_high.select_words(U32x8::splat(high), U32x8::splat(low));
         let is_painted =
             ((bits >> (square & U32x8::splat(31))) & U32x8::splat(1)).eq(U32x8::splat(1));
         let is_top = points.y.ge(F32x8::splat(-DEEPEST));
-        let painted = is_painted & is_top & is_on(cell[0]) & is_on(cell[1]) & lanes;
+        let (first, last) = (F32x8::splat(0.0), F32x8::splat(7.0));
+        let is_on = file.min(rank).ge(first) & file.max(rank).le(last);
+        let painted = is_painted & is_top & is_on & lanes;
         if !painted.any() {
             return ground;
         }
-        self.painted_over(ground, place, square, seen * per_square, painted)
+        self.painted_over(ground, [x, y], square, seen * per_square, painted)
     }
 
     /// The same for `lanes` on painted squares; lengths are in squares.
@@ -91,13 +94,18 @@ impl Painting {
             #[inline(always)]
             || {
                 let mut color = ground;
-                for_each_kind(square, lanes, |square, these| {
-                    for coat in self.layers.get(square).into_iter().flatten() {
-                        let cover = coat.cover.at(place, seen, these);
-                        let share = these.keep(cover * F32x8::splat(coat.opacity));
-                        color = color.lerp(Vec3x8::splat(coat.color), share);
-                    }
-                });
+                for_each_kind(
+                    square,
+                    lanes,
+                    #[inline(always)]
+                    |square, these| {
+                        for coat in self.layers.get(square).into_iter().flatten() {
+                            let cover = coat.cover.at(place, seen, these);
+                            let share = these.keep(cover * F32x8::splat(coat.opacity));
+                            color = color.lerp(Vec3x8::splat(coat.color), share);
+                        }
+                    },
+                );
                 color
             },
         )

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::*;
 use crate::assets::{Assets, SetName};
 use crate::config::{self, Config, ShowClock};
-use crate::geometry::{Bounds, Solid};
+use crate::geometry::Bounds;
 use crate::lanes::{Plain, Task, dispatch};
 use crate::notation::{Arrow, Brush, Circle, Color, Placement, Square};
 use crate::scene::noise::hash;
@@ -145,12 +145,10 @@ fn surfaces_look_as_they_do_point_by_point_and_the_same_in_both_ways() {
                 asked += 1;
                 if error > 1e-4 || index != material as usize {
                     edges += 1;
-                    println!("{name} at {point}: {exact} is not {color:?}, {index} {material}");
                 }
             }
         }
     }
-    println!("{edges} of {asked}");
     assert!(edges * 2000 < asked, "{edges} of {asked}");
 }
 

@@ -128,7 +128,15 @@ impl Patterned {
                             // Pictures lie where they lie, whatever the seed.
                             written.color(Place { on_body: point, point, seed: 0 }, seen)
                         });
-                        if *is_linear { color.map(linear_light) } else { color }
+                        if *is_linear {
+                            Vec3x8::new(
+                                linear_light(color.x),
+                                linear_light(color.y),
+                                linear_light(color.z),
+                            )
+                        } else {
+                            color
+                        }
                     }
                 }
             },

@@ -44,7 +44,7 @@ impl Timber {
     pub fn shade<S: Simd>(&self, points: Vec3x8<S>, seen: F32x8<S>, lanes: Mask8<S>) -> F32x8<S> {
         let seen = seen * F32x8::splat(self.rings_per_unit);
         let mut shade = F32x8::splat(self.ground)
-            + F32x8::splat(timber::DRIFT.1 as f32) * self.drift.at(points, lanes);
+            + F32x8::splat(timber::DRIFT.1 as f32) * self.drift.at(&points, lanes);
         let rings_left = visible(seen, timber::RING_WIDTH);
         let are_seen = rings_left.gt(F32x8::splat(0.0)) & lanes;
         if are_seen.any() {
@@ -53,7 +53,7 @@ impl Timber {
         let fibres_left = visible(seen, timber::FIBRE_WIDTH);
         let are_seen = fibres_left.gt(F32x8::splat(0.0)) & lanes;
         if are_seen.any() {
-            let fibres = F32x8::splat(timber::FIBRES.1 as f32) * self.fibres.at(points, are_seen);
+            let fibres = F32x8::splat(timber::FIBRES.1 as f32) * self.fibres.at(&points, are_seen);
             shade += are_seen.keep(fibres * fibres_left);
         }
         shade.clamp(0.0, 1.0)
@@ -67,11 +67,11 @@ impl Timber {
         let y = widths.y + F32x8::splat(self.heart.y);
         let mut radius = (x * x + y * y).sqrt();
         for (bend, by) in &self.bends {
-            radius += F32x8::splat(*by) * bend.at(points, lanes);
+            radius += F32x8::splat(*by) * bend.at(&points, lanes);
         }
         let ring = radius.floor();
         let t = radius - ring;
-        let [end, width] = LATE.map(|part| part as f32);
+        let (end, width) = (LATE[0] as f32, LATE[1] as f32);
         let one = F32x8::splat(1.0);
         let late = t * t * (one - smooth((t - F32x8::splat(end)) * F32x8::splat(width.recip())));
         let year = share(self.seed, ring.to_i32());
