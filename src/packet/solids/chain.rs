@@ -235,10 +235,8 @@ impl Slopes {
         let length2 = smooth_x * smooth_x + smooth_y * smooth_y;
         let has_length = length2.gt(F32x8::splat(1e-12));
         let by = length2.sqrt().recip();
-        let smooth = [
-            has_length.select(smooth_x * by, flat[0]),
-            has_length.select(smooth_y * by, flat[1]),
-        ];
+        let smooth =
+            [has_length.select(smooth_x * by, flat[0]), has_length.select(smooth_y * by, flat[1])];
         Slope { flat, smooth }
     }
 

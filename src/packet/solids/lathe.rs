@@ -216,11 +216,12 @@ impl Lathe {
             return nothing;
         };
         let lines = AxisLines::new(rays, whole, after, before);
-        // What is not asked ends before it begins.
-        let to = lanes.select(lines.to, F32x8::splat(f32::NEG_INFINITY));
-        if !lines.may_meet(whole, to).any() {
+        let lanes = lanes & lines.may_meet(whole, lines.to);
+        if !lanes.any() {
             return nothing;
         }
+        // What is not asked ends before it begins.
+        let to = lanes.select(lines.to, F32x8::splat(f32::NEG_INFINITY));
         let mut best = Best { t: to, part: U32x8::splat(u32::MAX) };
         // What comes first is asked first.
         if lines.go_down() {
@@ -235,7 +236,12 @@ impl Lathe {
 
     /// Of crossings in one place the lower one's ring counts, whichever way the tree is walked.
     #[inline(never)]
-    fn find<S: Simd, const DOWN: bool>(&self, lines: &AxisLines<S>, after: F32x8<S>, best: &mut Best<S>) {
+    fn find<S: Simd, const DOWN: bool>(
+        &self,
+        lines: &AxisLines<S>,
+        after: F32x8<S>,
+        best: &mut Best<S>,
+    ) {
         S::run(
             #[inline(always)]
             || {
@@ -274,10 +280,11 @@ impl Lathe {
             return Mask8::no_lanes();
         };
         let lines = AxisLines::new(rays, whole, after, before);
-        let to = lanes.select(lines.to, F32x8::splat(f32::NEG_INFINITY));
-        if !lines.may_meet(whole, to).any() {
+        let lanes = lanes & lines.may_meet(whole, lines.to);
+        if !lanes.any() {
             return Mask8::no_lanes();
         }
+        let to = lanes.select(lines.to, F32x8::splat(f32::NEG_INFINITY));
         self.any(&lines, [after, before], to)
     }
 
@@ -364,11 +371,7 @@ impl Lathe {
 
 /// A normal of the profile at `points`, whose distances from the axis have the reciprocals `per_u`, none 0.
 #[inline(always)]
-fn turned<S: Simd>(
-    [nu, nv]: [F32x8<S>; 2],
-    points: Vec3x8<S>,
-    per_u: F32x8<S>,
-) -> Vec3x8<S> {
+fn turned<S: Simd>([nu, nv]: [F32x8<S>; 2], points: Vec3x8<S>, per_u: F32x8<S>) -> Vec3x8<S> {
     let radial = nu * per_u;
     // On the axis the normals from all round it have it as their middle.
     let is_off = per_u.gt(F32x8::splat(0.0));

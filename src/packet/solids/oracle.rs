@@ -12,7 +12,8 @@ pub struct Chance(pub u64);
 
 impl Chance {
     pub fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64
     }
 
@@ -89,8 +90,7 @@ impl Task for AskAll<'_> {
         let met = crossing.t.lt(F32x8::splat(f32::INFINITY)) & lanes;
         // Where nothing is met, a point and a part that are there.
         let parts = met.select_words(crossing.part, U32x8::splat(0));
-        let Normals { flat, smooth } =
-            solid.normals(rays.at(met.keep(crossing.t)), parts, met);
+        let Normals { flat, smooth } = solid.normals(rays.at(met.keep(crossing.t)), parts, met);
         let (t, part) = (crossing.t.store(), parts.store());
         let (flat, smooth) = (flat.store(), smooth.store());
         std::array::from_fn(|lane| {
@@ -137,7 +137,9 @@ pub fn ask_each(solid: &Solid, questions: &[(Ray, f32, f32)]) -> Vec<Found> {
         let indices = std::array::from_fn(|lane| (first * 7 + lane * lane * 1013) % count);
         let lanes = (first as u8).wrapping_mul(37) | 1;
         for (index, found) in indices.into_iter().zip(eight(indices, lanes)) {
-            assert!(found.is_none_or(|found| found == all[index]), "{index} in other company");
+            if let Some(found) = found {
+                assert_eq!(found, all[index], "{:?} in other company", questions[index]);
+            }
         }
     }
     all
@@ -178,7 +180,12 @@ pub fn hold(
                 Ray { origin: ray.origin + (sideways * cos + upwards * sin) * by, ..ray }
             })
         };
-        let is_so = agrees(&ray, 4.0 * slack) || shifted().any(|ray| agrees(&ray, 8.0 * slack));
+        // Where a ray runs within a surface, it may be met anywhere, or not at all.
+        let is_level = |normal: DVec3| normal.dot(ray.direction / length).abs() < 1e-4;
+        let grazes = found.t < f32::INFINITY && is_level(found.flat)
+            || scalar.nearest(&ray, range).is_some_and(|hit| is_level(hit.normal));
+        let is_so =
+            grazes || agrees(&ray, 4.0 * slack) || shifted().any(|ray| agrees(&ray, 8.0 * slack));
         assert!(
             is_so,
             "{name}: {ray:?} from {after} to {before}: {found:?}, expected {:?}",
@@ -198,7 +205,7 @@ pub fn hold(
             for normal in [found.flat, found.smooth] {
                 assert!((normal.length() - 1.0).abs() < 1e-5, "{name}: {normal}");
             }
-            let near = |normal: DVec3, exact: DVec3| normal.distance(exact) < 3e-3;
+            let near = |normal: DVec3, exact: DVec3| normal.distance(exact) < 0.02;
             // Lines through the place along its normal meet the same surface there; at edges those beside it.
             let point = ray.at(f64::from(found.t));
             let (aside, along) = found.flat.normalize().any_orthonormal_pair();

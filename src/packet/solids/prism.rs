@@ -65,10 +65,13 @@ struct FlatLines<S: Simd> {
     to: F32x8<S>,
 }
 
-/// A number of at least [`LEVEL`], with its sign.
+/// The same by the side of a direction that itself may be no more than [`LEVEL`].
+const STRAIGHT: f32 = 1e-30;
+
+/// The reciprocal of a number that is taken to be at least as large as `least`.
 #[inline(always)]
-fn not_level<S: Simd>(x: F32x8<S>) -> F32x8<S> {
-    x.abs().max(F32x8::splat(LEVEL)).with_sign_of(x)
+fn recip_of<S: Simd>(x: F32x8<S>, least: f32) -> F32x8<S> {
+    x.abs().max(F32x8::splat(least)).with_sign_of(x).recip()
 }
 
 impl<S: Simd> FlatLines<S> {
@@ -173,7 +176,7 @@ impl Prism {
         lanes: Mask8<S>,
     ) -> FlatLines<S> {
         let Rays { origin, direction } = rays;
-        let per_dz = not_level(direction.z).recip();
+        let per_dz = recip_of(direction.z, LEVEL);
         // Seen along z, a ray may as well go the least bit to the side.
         let is_along = (direction.x.abs() + direction.y.abs()).lt(F32x8::splat(2.0 * LEVEL));
         let q = [
@@ -200,7 +203,7 @@ impl Prism {
             start,
             p,
             q,
-            per_q: [not_level(q[0]).recip(), not_level(q[1]).recip()],
+            per_q: [recip_of(q[0], STRAIGHT), recip_of(q[1], STRAIGHT)],
             cross: q[0] * p[1] - q[1] * p[0],
             dot: q[0] * p[0] + q[1] * p[1],
             per_qq,
@@ -224,20 +227,19 @@ impl Prism {
             return nothing;
         };
         let mut lines = self.lines(rays, after, before, lanes);
-        if !lines.may_meet(whole, lines.to).any() {
+        let lanes = lines.may_meet(whole, lines.to);
+        if !lanes.any() {
             return nothing;
         }
+        lines.to = lanes.select(lines.to, F32x8::splat(f32::NEG_INFINITY));
         // A lid counts where the ray is inside, which all walls before it tell.
         let (at_entry, at_exit) = (lines.start + lines.lids[0], lines.start + lines.lids[1]);
-        let entry_counts = at_entry.gt(after) & at_entry.lt(before);
-        let exit_counts = at_exit.gt(after) & at_exit.lt(before);
+        let entry_counts = lanes & at_entry.gt(after) & at_entry.lt(before);
+        let exit_counts = lanes & at_exit.gt(after) & at_exit.lt(before);
         lines.from = (entry_counts | exit_counts)
             .select(F32x8::splat(f32::NEG_INFINITY), lines.from.max(lines.lids[0]));
-        let mut found = Found {
-            t: lines.to,
-            part: U32x8::splat(u32::MAX),
-            odd: [Mask8::no_lanes(); 2],
-        };
+        let mut found =
+            Found { t: lines.to, part: U32x8::splat(u32::MAX), odd: [Mask8::no_lanes(); 2] };
         self.find(&lines, [after, before], &mut found);
         let count = self.walls.len() as u32;
         let is_back_first = rays.direction.z.gt(F32x8::splat(0.0));
@@ -342,3 +344,6 @@ impl Prism {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

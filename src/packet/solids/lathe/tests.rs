@@ -82,7 +82,8 @@ fn questions(lathe: &Lathe, chance: &mut Chance, count: usize) -> Vec<(Ray, f32,
             }
         };
         let scale = [1.0, 0.17, 1.3][(chance.next() * 3.0) as usize];
-        let far = if chance.next() < 0.8 { f64::INFINITY } else { chance.between(0.0, 40.0) * size };
+        let far =
+            if chance.next() < 0.8 { f64::INFINITY } else { chance.between(0.0, 40.0) * size };
         questions.push((Ray { origin, direction: direction * scale }, 0.0, far as f32));
     }
     questions
@@ -132,10 +133,14 @@ fn speed() {
         type Output = (f64, usize);
         #[inline(always)]
         fn run<S: Simd>(self) -> (f64, usize) {
-            let rays: Vec<Rays<S>> = self.1.iter().map(|rays| Rays {
-                origin: Vec3x8::load(&rays.map(|ray| ray.origin)),
-                direction: Vec3x8::load(&rays.map(|ray| ray.direction)),
-            }).collect();
+            let rays: Vec<Rays<S>> = self
+                .1
+                .iter()
+                .map(|rays| Rays {
+                    origin: Vec3x8::load(&rays.map(|ray| ray.origin)),
+                    direction: Vec3x8::load(&rays.map(|ray| ray.direction)),
+                })
+                .collect();
             let Packet::Lathe(lathe) = self.0 else { panic!() };
             let mut best = f64::INFINITY;
             let mut met = 0;
@@ -165,8 +170,10 @@ fn speed() {
         let packet = Packet::new(lathe);
         let bounds = lathe.bounds();
         for (view, eye) in [
-            ("slanted", DVec3::new(2.0, 6.0, -7.0)), ("level", DVec3::new(0.0, 0.6, -9.0)),
-            ("above", DVec3::new(0.3, 12.0, -0.5)), ("below", DVec3::new(3.0, -5.0, -2.0)),
+            ("slanted", DVec3::new(2.0, 6.0, -7.0)),
+            ("level", DVec3::new(0.0, 0.6, -9.0)),
+            ("above", DVec3::new(0.3, 12.0, -0.5)),
+            ("below", DVec3::new(3.0, -5.0, -2.0)),
         ] {
             // Pixels of 2 × 4 a packet, over the silhouette's square.
             let middle = (bounds.min + bounds.max) / 2.0;
@@ -188,7 +195,10 @@ fn speed() {
             }
             let (nearest, met) = dispatch(Bench(&packet, &packets, false));
             let (blocks, _) = dispatch(Bench(&packet, &packets, true));
-            println!("{name} {view}: {nearest:.1} M nearest/s, {blocks:.1} M blocks/s, {met} % met, {} segments", lathe.segments().len());
+            println!(
+                "{name} {view}: {nearest:.1} M nearest/s, {blocks:.1} M blocks/s, {met} % met, {} segments",
+                lathe.segments().len()
+            );
         }
     }
 }
