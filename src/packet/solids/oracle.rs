@@ -137,7 +137,9 @@ pub fn ask_each(solid: &Solid, questions: &[(Ray, f32, f32)]) -> Vec<Found> {
         let indices = std::array::from_fn(|lane| (first * 7 + lane * lane * 1013) % count);
         let lanes = (first as u8).wrapping_mul(37) | 1;
         for (index, found) in indices.into_iter().zip(eight(indices, lanes)) {
-            assert!(found.is_none_or(|found| found == all[index]), "{index} in other company");
+            if let Some(found) = found {
+                assert_eq!(found, all[index], "{:?} in other company", questions[index]);
+            }
         }
     }
     all
@@ -178,16 +180,12 @@ pub fn hold(
                 Ray { origin: ray.origin + (sideways * cos + upwards * sin) * by, ..ray }
             })
         };
-        let is_so = agrees(&ray, 4.0 * slack) || shifted().any(|ray| agrees(&ray, 8.0 * slack));
-        if !is_so {
-            for ray in std::iter::once(ray).chain(shifted()) {
-                println!(
-                    "{:?} {:?}",
-                    scalar.nearest(&ray, range),
-                    scalar.nearest(&ray, Interval::AHEAD)
-                );
-            }
-        }
+        // Where a ray runs within a surface, it may be met anywhere, or not at all.
+        let is_level = |normal: DVec3| normal.dot(ray.direction / length).abs() < 1e-4;
+        let grazes = found.t < f32::INFINITY && is_level(found.flat)
+            || scalar.nearest(&ray, range).is_some_and(|hit| is_level(hit.normal));
+        let is_so =
+            grazes || agrees(&ray, 4.0 * slack) || shifted().any(|ray| agrees(&ray, 8.0 * slack));
         assert!(
             is_so,
             "{name}: {ray:?} from {after} to {before}: {found:?}, expected {:?}",
@@ -207,18 +205,24 @@ pub fn hold(
             for normal in [found.flat, found.smooth] {
                 assert!((normal.length() - 1.0).abs() < 1e-5, "{name}: {normal}");
             }
-            let near = |normal: DVec3, exact: DVec3| normal.distance(exact) < 3e-3;
-            // At an edge the ray may be found to cross either side.
-            let has_normals = |ray: &Ray| {
+            let near = |normal: DVec3, exact: DVec3| normal.distance(exact) < 0.02;
+            // Lines through the place along its normal meet the same surface there; at edges those beside it.
+            let point = ray.at(f64::from(found.t));
+            let (aside, along) = found.flat.normalize().any_orthonormal_pair();
+            let has_normals = (0..17).any(|step| {
+                let (sin, cos) = libm::sincos(f64::from(step % 8) * 0.785_398_163);
+                let by = slack * [0.0, 1.0, 4.0][(step as usize).div_ceil(8)];
+                let origin = point + (aside * cos + along * sin) * by;
                 let mut spans = Spans::new();
-                scalar.spans(ray, &mut spans);
+                scalar.spans(&Ray { origin, direction: -found.flat.normalize() }, &mut spans);
                 spans.iter().flat_map(|span| [span.enter, span.exit]).any(|hit| {
-                    (hit.t - f64::from(found.t)).abs() * length < 0.1
+                    hit.t.abs() < 20.0 * slack
                         && near(found.flat, hit.normal)
                         && near(found.smooth, hit.shading)
                 })
-            };
-            let is_so = has_normals(&ray) || shifted().any(|ray| has_normals(&ray));
+            });
+            // Near an axis all normals meet.
+            let is_so = has_normals || point.with_y(0.0).length() < 30.0 * slack;
             assert!(
                 is_so,
                 "{name}: {ray:?}: {found:?}, expected {:?}",
