@@ -122,9 +122,15 @@ pub fn has_avx2() -> bool {
 pub fn dispatch<T: Task>(task: T) -> T::Output {
     #[cfg(target_arch = "x86_64")]
     if has_avx2() {
-        return Avx2::run(|| task.run::<Avx2>());
+        return Avx2::run(
+            #[inline(always)]
+            || task.run::<Avx2>(),
+        );
     }
-    Plain::run(|| task.run::<Plain>())
+    Plain::run(
+        #[inline(always)]
+        || task.run::<Plain>(),
+    )
 }
 
 /// Eight floating-point numbers.

@@ -224,18 +224,32 @@ impl Slopes {
     #[inline(always)]
     pub fn at<S: Simd>(&self, x: F32x8<S>, y: F32x8<S>, segments: U32x8<S>) -> Slope<S> {
         let row = segments * U32x8::splat(ROW as u32);
-        let number =
-            |column: u32| F32x8::<S>::gather(&self.table, row + U32x8::splat(column));
-        let flat = [number(0), number(1)];
+        let flat = [self.number(row, 0), self.number(row, 1)];
         if self.is_flat {
             return Slope { flat, smooth: flat };
         }
-        let share = (x * number(6) + y * number(7) - number(8)).clamp(0.0, 1.0);
-        let smooth = [number(2) + number(4) * share, number(3) + number(5) * share];
-        let length2 = smooth[0] * smooth[0] + smooth[1] * smooth[1];
-        let has_length: Mask8<S> = length2.gt(F32x8::splat(1e-12));
+        let way = x * self.number(row, 6) + y * self.number(row, 7) - self.number(row, 8);
+        let share = way.clamp(0.0, 1.0);
+        let smooth_x = self.number(row, 2) + self.number(row, 4) * share;
+        let smooth_y = self.number(row, 3) + self.number(row, 5) * share;
+        let length2 = smooth_x * smooth_x + smooth_y * smooth_y;
+        let has_length = length2.gt(F32x8::splat(1e-12));
         let by = length2.sqrt().recip();
-        let each = |axis: usize| has_length.select(smooth[axis] * by, flat[axis]);
-        Slope { flat, smooth: [each(0), each(1)] }
+        let smooth = [
+            has_length.select(smooth_x * by, flat[0]),
+            has_length.select(smooth_y * by, flat[1]),
+        ];
+        Slope { flat, smooth }
     }
+
+    #[inline(always)]
+    fn number<S: Simd>(&self, row: U32x8<S>, column: u32) -> F32x8<S> {
+        F32x8::gather(&self.table, row + U32x8::splat(column))
+    }
+}
+
+/// Where one of the answers is yes, and not the other.
+#[inline(always)]
+pub fn either<S: Simd>(a: Mask8<S>, b: Mask8<S>) -> Mask8<S> {
+    (a | b).but(a & b)
 }

@@ -3,17 +3,17 @@
 //! A ray's origin is first moved to where it is nearest to the axis within the heights of the body, so that
 //! nothing large cancels. There u² has its least value, and only grows from there on.
 
-use super::chain::{Bounds, ROUNDING, Slopes, Tree, merged, size};
+use super::chain::{Bounds, ROUNDING, Slopes, Tree, either, merged, size};
 use super::{Crossing, Normals};
 use crate::geometry::{self, Segment};
-use crate::lanes::{F32x8, Mask8, Simd, U32x8, Vec3x8};
+use crate::lanes::{F32x8, LANES, Mask8, Simd, U32x8, Vec3x8};
 use crate::packet::Rays;
 
 /// A profile turned about the y axis; its heights are y.
 pub struct Lathe {
     rings: Vec<Ring>,
-    /// From the highest end of the profile down.
-    tree: Tree<Zone>,
+    /// From the lowest end of the profile up, and from the highest one down.
+    trees: [Tree<Zone>; 2],
     sides: Vec<Side>,
     slopes: Slopes,
 }
@@ -133,6 +133,12 @@ impl<S: Simd> AxisLines<S> {
             & farthest.ge(F32x8::splat(zone.min_u2))
     }
 
+    /// Whether most lanes lead down.
+    #[inline(always)]
+    fn go_down(&self) -> bool {
+        self.dy.lt(F32x8::splat(0.0)).bits().count_ones() > LANES as u32 / 2
+    }
+
     /// The two distances at which a ring's cone is crossed; no number where it is not.
     #[inline(always)]
     fn meet(&self, ring: &Ring) -> [F32x8<S>; 2] {
@@ -190,7 +196,7 @@ impl Lathe {
         };
         Lathe {
             rings: segments.iter().map(ring).collect(),
-            tree: Tree::new(&segments, true, Zone::new),
+            trees: [false, true].map(|is_down| Tree::new(&segments, is_down, Zone::new)),
             sides: segments.iter().map(side).collect(),
             slopes: Slopes::new(&segments),
         }
@@ -206,7 +212,7 @@ impl Lathe {
     ) -> Crossing<S> {
         let none = F32x8::splat(f32::INFINITY);
         let nothing = Crossing { t: none, part: U32x8::splat(0) };
-        let Some(whole) = self.tree.root() else {
+        let Some(whole) = self.trees[0].root() else {
             return nothing;
         };
         let lines = AxisLines::new(rays, whole, after, before);
@@ -216,26 +222,35 @@ impl Lathe {
             return nothing;
         }
         let mut best = Best { t: to, part: U32x8::splat(u32::MAX) };
-        self.find(&lines, after, &mut best);
+        // What comes first is asked first.
+        if lines.go_down() {
+            self.find::<S, true>(&lines, after, &mut best);
+        } else {
+            self.find::<S, false>(&lines, after, &mut best);
+        }
         let t = lines.start + best.t;
         let is_met = t.lt(before) & !best.part.eq(U32x8::splat(u32::MAX));
         Crossing { t: is_met.select(t, none), part: best.part }
     }
 
+    /// Of crossings in one place the lower one's ring counts, whichever way the tree is walked.
     #[inline(never)]
-    fn find<S: Simd>(&self, lines: &AxisLines<S>, after: F32x8<S>, best: &mut Best<S>) {
+    fn find<S: Simd, const DOWN: bool>(&self, lines: &AxisLines<S>, after: F32x8<S>, best: &mut Best<S>) {
         S::run(
             #[inline(always)]
             || {
-                self.tree.walk(
+                self.trees[usize::from(DOWN)].walk(
                     best,
+                    #[inline(always)]
                     |best, zone| lines.may_meet(zone, best.t).any(),
+                    #[inline(always)]
                     |best, index| {
                         let Some(ring) = self.rings.get(index) else { return false };
                         for t in lines.meet(ring) {
-                            let is_nearer = lines.is_in(t, &ring.zone)
-                                & (lines.start + t).gt(after)
-                                & t.lt(best.t);
+                            let is_nearer = if DOWN { t.le(best.t) } else { t.lt(best.t) };
+                            let is_nearer = is_nearer
+                                & lines.is_in(t, &ring.zone)
+                                & (lines.start + t).gt(after);
                             best.t = is_nearer.select(t, best.t);
                             let part = U32x8::splat(index as u32);
                             best.part = is_nearer.select_words(part, best.part);
@@ -255,7 +270,7 @@ impl Lathe {
         before: F32x8<S>,
         lanes: Mask8<S>,
     ) -> Mask8<S> {
-        let Some(whole) = self.tree.root() else {
+        let Some(whole) = self.trees[0].root() else {
             return Mask8::no_lanes();
         };
         let lines = AxisLines::new(rays, whole, after, before);
@@ -279,9 +294,11 @@ impl Lathe {
                 let nowhere = F32x8::splat(f32::NEG_INFINITY);
                 // How far lanes still want to know.
                 let mut open = to;
-                self.tree.walk(
+                self.trees[usize::from(lines.go_down())].walk(
                     &mut open,
+                    #[inline(always)]
                     |open, zone| lines.may_meet(zone, *open).any(),
+                    #[inline(always)]
                     |open, index| {
                         let Some(ring) = self.rings.get(index) else { return false };
                         for t in lines.meet(ring) {
@@ -305,22 +322,23 @@ impl Lathe {
         let u = u2.sqrt();
         // An odd number of segments lies farther out when inside; runs without any are left out.
         let mut inside = Mask8::no_lanes();
-        self.tree.walk(
+        self.trees[0].walk(
             &mut inside,
+            #[inline(always)]
             |_, zone| {
                 let is_near = v.ge(F32x8::splat(zone.min_v))
                     & v.le(F32x8::splat(zone.max_v))
                     & u2.le(F32x8::splat(zone.max_u2));
                 (is_near & lanes).any()
             },
+            #[inline(always)]
             |inside, index| {
                 let Some(side) = self.sides.get(index) else { return false };
                 let starts = F32x8::splat(side.from_v).le(v);
                 let ends = F32x8::splat(side.to_v).le(v);
                 let at = F32x8::splat(side.from_u)
                     + (v - F32x8::splat(side.from_v)) * F32x8::splat(side.slope);
-                let is_passed = (starts | ends).but(starts & ends) & at.gt(u);
-                *inside = (*inside | is_passed).but(*inside & is_passed);
+                *inside = either(*inside, either(starts, ends) & at.gt(u));
                 false
             },
         );
@@ -336,16 +354,26 @@ impl Lathe {
     ) -> Normals<S> {
         let u = (points.x * points.x + points.z * points.z).sqrt();
         let slope = self.slopes.at(u, points.y, parts);
-        // On the axis the normals from all round it have it as their middle.
-        let is_off = u.gt(F32x8::splat(0.0));
-        let per_u = u.recip();
-        let turned = |[nu, nv]: [F32x8<S>; 2]| {
-            let radial = is_off.keep(nu * per_u);
-            let nv = is_off.select(nv, F32x8::splat(1.0).with_sign_of(nv));
-            Vec3x8::new(radial * points.x, nv, radial * points.z)
-        };
-        Normals { flat: turned(slope.flat), smooth: turned(slope.smooth) }
+        let per_u = u.gt(F32x8::splat(0.0)).keep(u.recip());
+        Normals {
+            flat: turned(slope.flat, points, per_u),
+            smooth: turned(slope.smooth, points, per_u),
+        }
     }
+}
+
+/// A normal of the profile at `points`, whose distances from the axis have the reciprocals `per_u`, none 0.
+#[inline(always)]
+fn turned<S: Simd>(
+    [nu, nv]: [F32x8<S>; 2],
+    points: Vec3x8<S>,
+    per_u: F32x8<S>,
+) -> Vec3x8<S> {
+    let radial = nu * per_u;
+    // On the axis the normals from all round it have it as their middle.
+    let is_off = per_u.gt(F32x8::splat(0.0));
+    let y = is_off.select(nv, F32x8::splat(1.0).with_sign_of(nv));
+    Vec3x8::new(radial * points.x, y, radial * points.z)
 }
 
 #[cfg(test)]

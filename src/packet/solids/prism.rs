@@ -5,7 +5,7 @@
 
 use glam::DVec2;
 
-use super::chain::{Bounds, Slopes, Tree, merged};
+use super::chain::{Bounds, Slopes, Tree, either, merged};
 use super::{Crossing, Normals};
 use crate::geometry::{self, Segment, Solid};
 use crate::lanes::{F32x8, Mask8, Simd, U32x8, Vec3x8};
@@ -88,16 +88,19 @@ impl<S: Simd> FlatLines<S> {
     /// Which lanes cross `wall`, and where.
     #[inline(always)]
     fn meet(&self, wall: &Wall) -> (Mask8<S>, F32x8<S>) {
-        let [from, to] = [wall.from, wall.to].map(|[x, y]| {
-            let (x, y) = (F32x8::splat(x), F32x8::splat(y));
-            let off = self.q[0] * y - self.q[1] * x - self.cross;
-            let along = self.q[0] * x + self.q[1] * y - self.dot;
-            (off, along)
-        });
+        let ((from_off, from_along), (to_off, to_along)) = (self.see(wall.from), self.see(wall.to));
         let zero = F32x8::splat(0.0);
-        let (is_left, was_left) = (from.0.gt(zero), to.0.gt(zero));
-        let share = from.0 / (from.0 - to.0);
-        ((is_left | was_left).but(is_left & was_left), from.1.lerp(to.1, share) * self.per_qq)
+        let share = from_off / (from_off - to_off);
+        let t = from_along.lerp(to_along, share) * self.per_qq;
+        (either(from_off.gt(zero), to_off.gt(zero)), t)
+    }
+
+    /// How far a vertex lies off the line, and how far along it, times |q|.
+    #[inline(always)]
+    fn see(&self, [x, y]: [f32; 2]) -> (F32x8<S>, F32x8<S>) {
+        let (x, y) = (F32x8::splat(x), F32x8::splat(y));
+        let off = self.q[0] * y - self.q[1] * x - self.cross;
+        (off, self.q[0] * x + self.q[1] * y - self.dot)
     }
 }
 
@@ -140,6 +143,27 @@ impl Prism {
         }
     }
 
+    /// Places in the outline's plane, from its middle.
+    #[inline(always)]
+    fn from_middle<S: Simd>(&self, points: &Vec3x8<S>) -> [F32x8<S>; 2] {
+        let [x, y] = self.middle;
+        [points.x - F32x8::splat(x), points.y - F32x8::splat(y)]
+    }
+
+    /// Which heights lie between the lids.
+    #[inline(always)]
+    fn is_between<S: Simd>(&self, z: F32x8<S>) -> Mask8<S> {
+        z.gt(F32x8::splat(self.back)) & z.lt(F32x8::splat(self.front))
+    }
+
+    /// Distances of the lids from a height, the nearer one first.
+    #[inline(always)]
+    fn lids<S: Simd>(&self, z: F32x8<S>, per_dz: F32x8<S>) -> [F32x8<S>; 2] {
+        let back = (F32x8::splat(self.back) - z) * per_dz;
+        let front = (F32x8::splat(self.front) - z) * per_dz;
+        [back.min(front), back.max(front)]
+    }
+
     #[inline(always)]
     fn lines<S: Simd>(
         &self,
@@ -149,12 +173,7 @@ impl Prism {
         lanes: Mask8<S>,
     ) -> FlatLines<S> {
         let Rays { origin, direction } = rays;
-        let [back, front] = [self.back, self.front].map(F32x8::<S>::splat);
         let per_dz = not_level(direction.z).recip();
-        let lids = |oz: F32x8<S>| {
-            let (back, front) = ((back - oz) * per_dz, (front - oz) * per_dz);
-            [back.min(front), back.max(front)]
-        };
         // Seen along z, a ray may as well go the least bit to the side.
         let is_along = (direction.x.abs() + direction.y.abs()).lt(F32x8::splat(2.0 * LEVEL));
         let q = [
@@ -162,17 +181,16 @@ impl Prism {
             is_along.select(F32x8::splat(0.0), direction.y),
         ];
         let per_qq = (q[0] * q[0] + q[1] * q[1]).recip();
-        let from_middle = |p: F32x8<S>, axis: usize| p - F32x8::splat(self.middle[axis]);
-        let p = [from_middle(origin.x, 0), from_middle(origin.y, 1)];
+        let p = self.from_middle(origin);
         let closest = -(p[0] * q[0] + p[1] * q[1]) * per_qq;
-        let within = lids(origin.z);
+        let within = self.lids(origin.z, per_dz);
         let start = closest.max(within[0]).min(within[1]);
         let p = [p[0] + q[0] * start, p[1] + q[1] * start];
         let oz = origin.z + direction.z * start;
-        let lids = lids(oz);
+        let lids = self.lids(oz, per_dz);
         // A ray within the plane of a lid is outside.
         let is_level = direction.z.abs().lt(F32x8::splat(LEVEL));
-        let lanes = lanes.but(is_level.but(oz.gt(back) & oz.lt(front)));
+        let lanes = lanes.but(is_level.but(self.is_between(oz)));
         // Differences are rounded, which may lose nothing.
         let room = F32x8::splat(3e-7);
         let (from, to) = (after - start, before - start);
@@ -182,7 +200,7 @@ impl Prism {
             start,
             p,
             q,
-            per_q: q.map(|q| not_level(q).recip()),
+            per_q: [not_level(q[0]).recip(), not_level(q[1]).recip()],
             cross: q[0] * p[1] - q[1] * p[0],
             dot: q[0] * p[0] + q[1] * p[1],
             per_qq,
@@ -210,9 +228,9 @@ impl Prism {
             return nothing;
         }
         // A lid counts where the ray is inside, which all walls before it tell.
-        let [at_entry, at_exit] = lines.lids.map(|lid| lines.start + lid);
-        let counts = |at: F32x8<S>| at.gt(after) & at.lt(before);
-        let [entry_counts, exit_counts] = [at_entry, at_exit].map(counts);
+        let (at_entry, at_exit) = (lines.start + lines.lids[0], lines.start + lines.lids[1]);
+        let entry_counts = at_entry.gt(after) & at_entry.lt(before);
+        let exit_counts = at_exit.gt(after) & at_exit.lt(before);
         lines.from = (entry_counts | exit_counts)
             .select(F32x8::splat(f32::NEG_INFINITY), lines.from.max(lines.lids[0]));
         let mut found = Found {
@@ -223,7 +241,7 @@ impl Prism {
         self.find(&lines, [after, before], &mut found);
         let count = self.walls.len() as u32;
         let is_back_first = rays.direction.z.gt(F32x8::splat(0.0));
-        let [back, front] = [U32x8::splat(count), U32x8::splat(count + 1)];
+        let (back, front) = (U32x8::splat(count), U32x8::splat(count + 1));
         let wall = !found.part.eq(U32x8::splat(u32::MAX));
         let exits = (exit_counts & found.odd[1]).but(wall);
         let t = exits.select(at_exit, wall.select(lines.start + found.t, none));
@@ -245,17 +263,17 @@ impl Prism {
             || {
                 self.tree.walk(
                     found,
+                    #[inline(always)]
                     |found, area| lines.may_meet(area, found.t).any(),
+                    #[inline(always)]
                     |found, index| {
                         let Some(wall) = self.walls.get(index) else { return false };
                         let (is_crossed, t) = lines.meet(wall);
                         let [entry, exit] = lines.lids;
-                        let toggle = |odd: Mask8<S>, passed: Mask8<S>| {
-                            (odd | passed).but(odd & passed)
-                        };
+                        let [before_entry, before_exit] = found.odd;
                         found.odd = [
-                            toggle(found.odd[0], is_crossed & t.le(entry)),
-                            toggle(found.odd[1], is_crossed & t.lt(exit)),
+                            either(before_entry, is_crossed & t.le(entry)),
+                            either(before_exit, is_crossed & t.lt(exit)),
                         ];
                         let distance = lines.start + t;
                         let is_nearer = is_crossed
@@ -276,29 +294,27 @@ impl Prism {
 
     #[inline(always)]
     pub fn contains<S: Simd>(&self, points: Vec3x8<S>, lanes: Mask8<S>) -> Mask8<S> {
-        let x = points.x - F32x8::splat(self.middle[0]);
-        let y = points.y - F32x8::splat(self.middle[1]);
-        let lanes = lanes
-            & points.z.gt(F32x8::splat(self.back))
-            & points.z.lt(F32x8::splat(self.front));
+        let [x, y] = self.from_middle(&points);
+        let lanes = lanes & self.is_between(points.z);
         // An odd number of walls lies to the right when inside; runs without any are left out.
         let mut inside = Mask8::no_lanes();
         self.tree.walk(
             &mut inside,
+            #[inline(always)]
             |_, area| {
                 let is_near = y.ge(F32x8::splat(area.min[1]))
                     & y.le(F32x8::splat(area.max[1]))
                     & x.le(F32x8::splat(area.max[0]));
                 (is_near & lanes).any()
             },
+            #[inline(always)]
             |inside, index| {
                 let Some(wall) = self.walls.get(index) else { return false };
                 let starts = F32x8::splat(wall.from[1]).le(y);
                 let ends = F32x8::splat(wall.to[1]).le(y);
                 let at = F32x8::splat(wall.from[0])
                     + (y - F32x8::splat(wall.from[1])) * F32x8::splat(wall.slope);
-                let is_passed = (starts | ends).but(starts & ends) & at.gt(x);
-                *inside = (*inside | is_passed).but(*inside & is_passed);
+                *inside = either(*inside, either(starts, ends) & at.gt(x));
                 false
             },
         );
@@ -314,13 +330,15 @@ impl Prism {
     ) -> Normals<S> {
         let count = self.walls.len() as u32;
         let (zero, one) = (F32x8::splat(0.0), F32x8::splat(1.0));
-        let (x, y) =
-            (points.x - F32x8::splat(self.middle[0]), points.y - F32x8::splat(self.middle[1]));
+        let [x, y] = self.from_middle(&points);
         let slope = self.slopes.at(x, y, parts);
         let is_back = parts.eq(U32x8::splat(count));
         let is_lid = is_back | parts.eq(U32x8::splat(count + 1));
         let lid = Vec3x8::new(zero, zero, is_back.select(-one, one));
-        let whole = |[x, y]: [F32x8<S>; 2]| Vec3x8::select(is_lid, lid, Vec3x8::new(x, y, zero));
-        Normals { flat: whole(slope.flat), smooth: whole(slope.smooth) }
+        let ([flat_x, flat_y], [x, y]) = (slope.flat, slope.smooth);
+        Normals {
+            flat: Vec3x8::select(is_lid, lid, Vec3x8::new(flat_x, flat_y, zero)),
+            smooth: Vec3x8::select(is_lid, lid, Vec3x8::new(x, y, zero)),
+        }
     }
 }
