@@ -85,8 +85,7 @@ impl<'a> Phong<'a> {
         seen: &mut Vec<Seen>,
         touched: Option<&mut Vec<Regions>>,
     ) -> RayCounts {
-        let place: [Place; 8] =
-            std::array::from_fn(|lane| places[lane.min(places.len() - 1)]);
+        let place: [Place; 8] = std::array::from_fn(|lane| places[lane.min(places.len() - 1)]);
         let x = F32x8::<S>::load(&place.map(|place| place.x));
         let rays = self.pinhole.rays(x, F32x8::load(&place.map(|place| place.y)));
         let lanes = Mask8::from_bits((0xFF_u32 >> (LANES - places.len())) as u8);
@@ -129,115 +128,120 @@ impl<'a> Phong<'a> {
 
     #[inline(never)]
     fn radiance<S: Simd>(&self, flight: &Flight<S>, walk: &mut Walk<S>) -> Vec3x8<S> {
-        S::run(#[inline(always)] || {
-            let Flight { rays, lanes, .. } = flight;
-            let (world, scene) = (&self.world, self.world.scene);
-            let meeting = world.nearest(
-                rays,
-                F32x8::splat(scene.max_distance as f32),
-                *lanes,
-                &mut walk.touched,
-            );
-            let hit = *lanes & meeting.lanes();
-            walk.hits = walk.hits.or(Some(hit));
-            walk.footprints.meet_nothing(lanes.but(hit));
-            let background = scene.background.unwrap_or(Rgb::ZERO).as_vec3();
-            let background = Vec3x8::splat(background);
-            if !hit.any() {
-                return background;
-            }
-            let length = flight.length + meeting.t;
-            let sight = world.sight(rays, &meeting, length * walk.spread, hit, &mut walk.touched);
-            let materials = &world.materials;
-            let direction = rays.direction;
-            let (outward, normal) = facing(sight.normals, direction);
-            let leaving = sight.point + outward * F32x8::splat(OFFSET);
-            let mirrored = mirrored(direction, normal, outward);
+        S::run(
+            #[inline(always)]
+            || {
+                let Flight { rays, lanes, .. } = flight;
+                let (world, scene) = (&self.world, self.world.scene);
+                let meeting = world.nearest(
+                    rays,
+                    F32x8::splat(scene.max_distance as f32),
+                    *lanes,
+                    &mut walk.touched,
+                );
+                let hit = *lanes & meeting.lanes();
+                walk.hits = walk.hits.or(Some(hit));
+                walk.footprints.meet_nothing(lanes.but(hit));
+                let background = scene.background.unwrap_or(Rgb::ZERO).as_vec3();
+                let background = Vec3x8::splat(background);
+                if !hit.any() {
+                    return background;
+                }
+                let length = flight.length + meeting.t;
+                let sight =
+                    world.sight(rays, &meeting, length * walk.spread, hit, &mut walk.touched);
+                let materials = &world.materials;
+                let direction = rays.direction;
+                let (outward, normal) = facing(sight.normals, direction);
+                let leaving = sight.point + outward * F32x8::splat(OFFSET);
+                let mirrored = mirrored(direction, normal, outward);
 
-            let diffuse = materials.diffuse(sight.material);
-            let specular = materials.specular(sight.material);
-            let mut scattered = Vec3x8::grey(materials.ambient(sight.material));
-            let mut highlights = Vec3x8::zero();
-            let zero = F32x8::splat(0.0);
-            for light in &scene.lights {
-                let towards = Vec3x8::splat(light.position.as_vec3()) - leaving;
-                let distance = towards.length();
-                let towards = towards * distance.recip();
-                let incidence = normal.dot(towards);
-                let lit = hit & incidence.gt(zero);
-                if !lit.any() {
-                    continue;
+                let diffuse = materials.diffuse(sight.material);
+                let specular = materials.specular(sight.material);
+                let mut scattered = Vec3x8::grey(materials.ambient(sight.material));
+                let mut highlights = Vec3x8::zero();
+                let zero = F32x8::splat(0.0);
+                for light in &scene.lights {
+                    let towards = Vec3x8::splat(light.position.as_vec3()) - leaving;
+                    let distance = towards.length();
+                    let towards = towards * distance.recip();
+                    let incidence = normal.dot(towards);
+                    let lit = hit & incidence.gt(zero);
+                    if !lit.any() {
+                        continue;
+                    }
+                    walk.counts.shadow += u64::from(lit.bits().count_ones());
+                    let way = Rays { origin: leaving, direction: towards };
+                    let share = world.transmission(&way, distance, lit, &mut walk.touched);
+                    let lit = lit & share.gt(zero);
+                    if !lit.any() {
+                        continue;
+                    }
+                    let light = Vec3x8::splat(light.color.as_vec3()) * share;
+                    let lit_by = light * (diffuse * incidence);
+                    scattered += Vec3x8::select(lit, lit_by, Vec3x8::zero());
+                    let highlight = mirrored.dot(towards);
+                    let glossy = lit & highlight.gt(zero);
+                    if glossy.any() {
+                        let power = math::pow(highlight, materials.shininess(sight.material));
+                        let gloss = light * (specular * power);
+                        highlights += Vec3x8::select(glossy, gloss, Vec3x8::zero());
+                    }
                 }
-                walk.counts.shadow += u64::from(lit.bits().count_ones());
-                let way = Rays { origin: leaving, direction: towards };
-                let share = world.transmission(&way, distance, lit, &mut walk.touched);
-                let lit = lit & share.gt(zero);
-                if !lit.any() {
-                    continue;
+                walk.footprints.meet(
+                    hit,
+                    flight.weight,
+                    world.names(&meeting),
+                    normal,
+                    sight.color,
+                    scattered + highlights,
+                );
+                let mut sum = sight.color.times(scattered) + highlights;
+                let deeper = hit & flight.depth.lt(F32x8::splat(scene.max_depth as f32));
+                let mut mirror = materials.reflectivity(sight.material);
+                let depth = flight.depth + F32x8::splat(1.0);
+                if world.is_transparent() && deeper.any() {
+                    let share = materials.transparency(sight.material);
+                    let clear = deeper & share.gt(zero);
+                    if clear.any() {
+                        let behind = sight.point - outward * F32x8::splat(OFFSET);
+                        let index = world.index_at(behind, clear);
+                        let (bent, passes_through) =
+                            refracted(direction, normal, flight.index / index);
+                        // The reflection is total: all that comes this way is thrown back.
+                        mirror = clear.but(passes_through).select(F32x8::splat(1.0), mirror);
+                        // What does not bend does not count, as long as there is an end to it.
+                        let straight =
+                            index.eq(flight.index) & flight.passes.lt(F32x8::splat(MAX_PASSES));
+                        let next = Flight {
+                            rays: Rays { origin: behind, direction: bent },
+                            lanes: clear & passes_through,
+                            depth: straight.select(flight.depth, depth),
+                            passes: flight.passes + straight.keep(F32x8::splat(1.0)),
+                            length,
+                            weight: flight.weight * share,
+                            index,
+                        };
+                        let seen = self.followed(next, walk, |counts| &mut counts.refracted);
+                        sum += seen * (clear & passes_through).keep(share);
+                    }
                 }
-                let light = Vec3x8::splat(light.color.as_vec3()) * share;
-                let lit_by = light * (diffuse * incidence);
-                scattered += Vec3x8::select(lit, lit_by, Vec3x8::zero());
-                let highlight = mirrored.dot(towards);
-                let glossy = lit & highlight.gt(zero);
-                if glossy.any() {
-                    let power = math::pow(highlight, materials.shininess(sight.material));
-                    let gloss = light * (specular * power);
-                    highlights += Vec3x8::select(glossy, gloss, Vec3x8::zero());
-                }
-            }
-            walk.footprints.meet(
-                hit,
-                flight.weight,
-                world.names(&meeting),
-                normal,
-                sight.color,
-                scattered + highlights,
-            );
-            let mut sum = sight.color.times(scattered) + highlights;
-            let deeper = hit & flight.depth.lt(F32x8::splat(scene.max_depth as f32));
-            let mut mirror = materials.reflectivity(sight.material);
-            let depth = flight.depth + F32x8::splat(1.0);
-            if world.is_transparent() && deeper.any() {
-                let share = materials.transparency(sight.material);
-                let clear = deeper & share.gt(zero);
-                if clear.any() {
-                    let behind = sight.point - outward * F32x8::splat(OFFSET);
-                    let index = world.index_at(behind, clear);
-                    let (bent, passes_through) = refracted(direction, normal, flight.index / index);
-                    // The reflection is total: all that comes this way is thrown back.
-                    mirror = clear.but(passes_through).select(F32x8::splat(1.0), mirror);
-                    // What does not bend does not count, as long as there is an end to it.
-                    let straight =
-                        index.eq(flight.index) & flight.passes.lt(F32x8::splat(MAX_PASSES));
+                if deeper.any() {
                     let next = Flight {
-                        rays: Rays { origin: behind, direction: bent },
-                        lanes: clear & passes_through,
-                        depth: straight.select(flight.depth, depth),
-                        passes: flight.passes + straight.keep(F32x8::splat(1.0)),
+                        rays: Rays { origin: leaving, direction: mirrored },
+                        lanes: deeper,
+                        depth,
+                        passes: flight.passes,
                         length,
-                        weight: flight.weight * share,
-                        index,
+                        weight: flight.weight * mirror,
+                        index: flight.index,
                     };
-                    let seen = self.followed(next, walk, |counts| &mut counts.refracted);
-                    sum += seen * (clear & passes_through).keep(share);
+                    let seen = self.followed(next, walk, |counts| &mut counts.reflected);
+                    sum += seen * deeper.keep(mirror);
                 }
-            }
-            if deeper.any() {
-                let next = Flight {
-                    rays: Rays { origin: leaving, direction: mirrored },
-                    lanes: deeper,
-                    depth,
-                    passes: flight.passes,
-                    length,
-                    weight: flight.weight * mirror,
-                    index: flight.index,
-                };
-                let seen = self.followed(next, walk, |counts| &mut counts.reflected);
-                sum += seen * deeper.keep(mirror);
-            }
-            Vec3x8::select(hit, sum, background)
-        })
+                Vec3x8::select(hit, sum, background)
+            },
+        )
     }
 
     /// What comes back along those rays that are worth their while; nothing along others.

@@ -182,40 +182,43 @@ impl<S: Simd> Touched<S> {
     /// Adds all that rays pass up to the distances `to`.
     #[inline(never)]
     pub fn add_way(&mut self, space: &Space, rays: &Rays<S>, to: F32x8<S>, lanes: Mask8<S>) {
-        S::run(#[inline(always)] || {
-            let inverse = rays.direction.recips();
-            let Cells { origin, side, reach, heights: [low, high] } = space.cells;
-            let cells = Slab {
-                origin: [origin.x as f32, origin.y as f32],
-                side: side as f32,
-                reach: reach as f32,
-                heights: [low as f32, high as f32],
-            };
-            let zero = U32x8::splat(0);
-            let mut rows = [zero; ROWS];
-            cells.rows::<S, 8, false>(rays, inverse, to, lanes, &mut rows);
-            for (index, bits) in rows.into_iter().enumerate() {
-                let word = &mut self.words[index / 4];
-                *word = *word | bits << (8 * (index % 4)) as u32;
-            }
-            let half = space.side / 2.0;
-            // What has no end is as good as this high.
-            let heights = [[-1e4, space.top], [space.top, 1e4]];
-            for (layer, heights) in heights.into_iter().enumerate() {
-                let zones = Slab {
-                    origin: [space.corner[0] + half, space.corner[1] + half],
-                    side: space.side,
-                    reach: half + 1e-3,
-                    heights,
+        S::run(
+            #[inline(always)]
+            || {
+                let inverse = rays.direction.recips();
+                let Cells { origin, side, reach, heights: [low, high] } = space.cells;
+                let cells = Slab {
+                    origin: [origin.x as f32, origin.y as f32],
+                    side: side as f32,
+                    reach: reach as f32,
+                    heights: [low as f32, high as f32],
                 };
+                let zero = U32x8::splat(0);
                 let mut rows = [zero; ROWS];
-                zones.rows::<S, COLUMNS, true>(rays, inverse, to, lanes, &mut rows);
+                cells.rows::<S, 8, false>(rays, inverse, to, lanes, &mut rows);
                 for (index, bits) in rows.into_iter().enumerate() {
-                    let word = &mut self.words[CELLS + layer * LAYER + index / 2];
-                    *word = *word | bits << (16 * (index % 2)) as u32;
+                    let word = &mut self.words[index / 4];
+                    *word = *word | bits << (8 * (index % 4)) as u32;
                 }
-            }
-        });
+                let half = space.side / 2.0;
+                // What has no end is as good as this high.
+                let heights = [[-1e4, space.top], [space.top, 1e4]];
+                for (layer, heights) in heights.into_iter().enumerate() {
+                    let zones = Slab {
+                        origin: [space.corner[0] + half, space.corner[1] + half],
+                        side: space.side,
+                        reach: half + 1e-3,
+                        heights,
+                    };
+                    let mut rows = [zero; ROWS];
+                    zones.rows::<S, COLUMNS, true>(rays, inverse, to, lanes, &mut rows);
+                    for (index, bits) in rows.into_iter().enumerate() {
+                        let word = &mut self.words[CELLS + layer * LAYER + index / 2];
+                        *word = *word | bits << (16 * (index % 2)) as u32;
+                    }
+                }
+            },
+        );
     }
 }
 

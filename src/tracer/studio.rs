@@ -220,57 +220,61 @@ impl<'a> Studio<'a> {
         meeting: &Meeting<S>,
         draw: &mut Draw<S>,
     ) -> Vec3x8<S> {
-        S::run(#[inline(always)] || {
-            let Flight { rays, lanes, .. } = flight;
-            let (world, materials) = (&self.world, &self.world.materials);
-            let seen = (flight.length + meeting.t) * flight.spread;
-            let sight = world.sight(rays, meeting, seen, *lanes, &mut draw.touched);
-            let (outward, normal) = facing(sight.normals, rays.direction);
-            let meet = Meet {
-                distance: meeting.t,
-                point: sight.point,
-                leaving: sight.point + outward * F32x8::splat(OFFSET),
-                outward,
-                normal,
-                material: sight.material,
-                color: sight.color,
-            };
-            let one = F32x8::splat(1.0);
-            let mut clear = Mask8::no_lanes();
-            if world.is_transparent() {
-                clear = *lanes & materials.transparency(meet.material).gt(F32x8::splat(0.0));
-            }
-            let mut sum = Vec3x8::zero();
-            if clear.any() {
-                sum = self.glass(&Flight { lanes: clear, ..*flight }, &meet, draw);
-            }
-            let opaque = lanes.but(clear);
-            if !opaque.any() {
-                return sum;
-            }
-            let cosine = -rays.direction.dot(normal);
-            let metal = opaque & materials.is_metal(meet.material);
-            let dull = opaque.but(metal);
-            let mut ground = Vec3x8::zero();
-            if dull.any() {
-                let gathered = self.gathered(&Flight { lanes: dull, ..*flight }, &meet, draw);
-                ground = meet.color.times(gathered) * dull.keep(F32x8::splat(GROUND as f32));
-            }
-            let coat = materials.coat(meet.material);
-            let coated = dull & coat.gt(one);
-            let glossy = metal | coated;
-            if !glossy.any() {
-                return Vec3x8::select(clear, sum, ground);
-            }
-            // A rough coat has no grazing glare: part of it is always seen from its side.
-            let roughness = materials.roughness(meet.material);
-            let share = coated.keep(fresnel(cosine, coat) * (one - F32x8::splat(0.5) * roughness));
-            let tinted = meet.color.lerp(Vec3x8::grey(one), grazing(cosine));
-            let shares = Vec3x8::select(metal, tinted, Vec3x8::grey(share));
-            let above = self.mirror(&Flight { lanes: glossy, ..*flight }, &meet, shares, draw);
-            let opaque = ground * (one - share) + above;
-            Vec3x8::select(clear, sum, opaque)
-        })
+        S::run(
+            #[inline(always)]
+            || {
+                let Flight { rays, lanes, .. } = flight;
+                let (world, materials) = (&self.world, &self.world.materials);
+                let seen = (flight.length + meeting.t) * flight.spread;
+                let sight = world.sight(rays, meeting, seen, *lanes, &mut draw.touched);
+                let (outward, normal) = facing(sight.normals, rays.direction);
+                let meet = Meet {
+                    distance: meeting.t,
+                    point: sight.point,
+                    leaving: sight.point + outward * F32x8::splat(OFFSET),
+                    outward,
+                    normal,
+                    material: sight.material,
+                    color: sight.color,
+                };
+                let one = F32x8::splat(1.0);
+                let mut clear = Mask8::no_lanes();
+                if world.is_transparent() {
+                    clear = *lanes & materials.transparency(meet.material).gt(F32x8::splat(0.0));
+                }
+                let mut sum = Vec3x8::zero();
+                if clear.any() {
+                    sum = self.glass(&Flight { lanes: clear, ..*flight }, &meet, draw);
+                }
+                let opaque = lanes.but(clear);
+                if !opaque.any() {
+                    return sum;
+                }
+                let cosine = -rays.direction.dot(normal);
+                let metal = opaque & materials.is_metal(meet.material);
+                let dull = opaque.but(metal);
+                let mut ground = Vec3x8::zero();
+                if dull.any() {
+                    let gathered = self.gathered(&Flight { lanes: dull, ..*flight }, &meet, draw);
+                    ground = meet.color.times(gathered) * dull.keep(F32x8::splat(GROUND as f32));
+                }
+                let coat = materials.coat(meet.material);
+                let coated = dull & coat.gt(one);
+                let glossy = metal | coated;
+                if !glossy.any() {
+                    return Vec3x8::select(clear, sum, ground);
+                }
+                // A rough coat has no grazing glare: part of it is always seen from its side.
+                let roughness = materials.roughness(meet.material);
+                let share =
+                    coated.keep(fresnel(cosine, coat) * (one - F32x8::splat(0.5) * roughness));
+                let tinted = meet.color.lerp(Vec3x8::grey(one), grazing(cosine));
+                let shares = Vec3x8::select(metal, tinted, Vec3x8::grey(share));
+                let above = self.mirror(&Flight { lanes: glossy, ..*flight }, &meet, shares, draw);
+                let opaque = ground * (one - share) + above;
+                Vec3x8::select(clear, sum, opaque)
+            },
+        )
     }
 
     /// The light that falls on surfaces, as seen on white.
@@ -281,33 +285,37 @@ impl<'a> Studio<'a> {
         meet: &Meet<S>,
         draw: &mut Draw<S>,
     ) -> Vec3x8<S> {
-        S::run(#[inline(always)] || {
-            let zero = F32x8::splat(0.0);
-            let from = flight.depth * purpose::STEP;
-            let shaded = flight.lanes & flight.weight.ge(F32x8::splat(SHADOWS_FROM as f32));
-            let mut sum = Vec3x8::zero();
-            for (number, light) in self.lights.boxes.iter().enumerate() {
-                let pair = draw.numbers.pair(from + purpose::SOFTBOX + number as u32);
-                let towards = light.points(pair) - meet.leaving;
-                let distance = towards.length();
-                let towards = towards * distance.recip();
-                let cosine = meet.normal.dot(towards);
-                let lit = flight.lanes & cosine.gt(zero) & meet.outward.dot(towards).gt(zero);
-                if !lit.any() {
-                    continue;
+        S::run(
+            #[inline(always)]
+            || {
+                let zero = F32x8::splat(0.0);
+                let from = flight.depth * purpose::STEP;
+                let shaded = flight.lanes & flight.weight.ge(F32x8::splat(SHADOWS_FROM as f32));
+                let mut sum = Vec3x8::zero();
+                for (number, light) in self.lights.boxes.iter().enumerate() {
+                    let pair = draw.numbers.pair(from + purpose::SOFTBOX + number as u32);
+                    let towards = light.points(pair) - meet.leaving;
+                    let distance = towards.length();
+                    let towards = towards * distance.recip();
+                    let cosine = meet.normal.dot(towards);
+                    let lit = flight.lanes & cosine.gt(zero) & meet.outward.dot(towards).gt(zero);
+                    if !lit.any() {
+                        continue;
+                    }
+                    let mut share = lit.keep(cosine);
+                    let asking = lit & shaded;
+                    if asking.any() {
+                        draw.counts.shadow += u64::from(asking.bits().count_ones());
+                        let way = Rays { origin: meet.leaving, direction: towards };
+                        let open =
+                            self.world.transmission(&way, distance, asking, &mut draw.touched);
+                        share = asking.select(share * open, share);
+                    }
+                    sum += Vec3x8::splat(light.color) * share;
                 }
-                let mut share = lit.keep(cosine);
-                let asking = lit & shaded;
-                if asking.any() {
-                    draw.counts.shadow += u64::from(asking.bits().count_ones());
-                    let way = Rays { origin: meet.leaving, direction: towards };
-                    let open = self.world.transmission(&way, distance, asking, &mut draw.touched);
-                    share = asking.select(share * open, share);
-                }
-                sum += Vec3x8::splat(light.color) * share;
-            }
-            sum + self.daylight(flight, meet, draw)
-        })
+                sum + self.daylight(flight, meet, draw)
+            },
+        )
     }
 
     /// What comes from the sky, and from other surfaces that hide it.
@@ -357,126 +365,132 @@ impl<'a> Studio<'a> {
         share: Vec3x8<S>,
         draw: &mut Draw<S>,
     ) -> Vec3x8<S> {
-        S::run(#[inline(always)] || {
-            let lanes = flight.lanes;
-            let roughness = self.world.materials.roughness(meet.material);
-            let exact = mirrored(flight.rays.direction, meet.normal, meet.outward);
-            let weight = flight.weight * share.max_element();
-            let mut followed = Mask8::no_lanes();
-            let mut seen = Vec3x8::zero();
-            if flight.depth < self.world.scene.max_depth {
-                followed = lanes & weight.ge(F32x8::splat(MIRRORS_FROM as f32));
-            }
-            if followed.any() {
-                let from = flight.depth * purpose::STEP;
-                let pair = draw.numbers.pair(from + purpose::MIRROR);
-                let blurred = (exact + ball(pair) * roughness).normalized();
-                let is_above = blurred.dot(meet.outward).gt(F32x8::splat(0.0));
-                let direction = Vec3x8::select(is_above, blurred, exact);
-                let rays = Rays { origin: meet.leaving, direction };
-                draw.counts.reflected += u64::from(followed.bits().count_ones());
-                let meeting = self.nearest(&rays, followed, draw);
-                followed = followed & meeting.lanes();
+        S::run(
+            #[inline(always)]
+            || {
+                let lanes = flight.lanes;
+                let roughness = self.world.materials.roughness(meet.material);
+                let exact = mirrored(flight.rays.direction, meet.normal, meet.outward);
+                let weight = flight.weight * share.max_element();
+                let mut followed = Mask8::no_lanes();
+                let mut seen = Vec3x8::zero();
+                if flight.depth < self.world.scene.max_depth {
+                    followed = lanes & weight.ge(F32x8::splat(MIRRORS_FROM as f32));
+                }
                 if followed.any() {
-                    let next = Flight {
-                        rays,
-                        lanes: followed,
-                        depth: flight.depth + 1,
-                        length: flight.length + meet.distance,
-                        weight,
-                        index: flight.index,
-                        spread: flight.spread + roughness,
-                    };
-                    seen = self.light(&next, &meeting, draw);
+                    let from = flight.depth * purpose::STEP;
+                    let pair = draw.numbers.pair(from + purpose::MIRROR);
+                    let blurred = (exact + ball(pair) * roughness).normalized();
+                    let is_above = blurred.dot(meet.outward).gt(F32x8::splat(0.0));
+                    let direction = Vec3x8::select(is_above, blurred, exact);
+                    let rays = Rays { origin: meet.leaving, direction };
+                    draw.counts.reflected += u64::from(followed.bits().count_ones());
+                    let meeting = self.nearest(&rays, followed, draw);
+                    followed = followed & meeting.lanes();
+                    if followed.any() {
+                        let next = Flight {
+                            rays,
+                            lanes: followed,
+                            depth: flight.depth + 1,
+                            length: flight.length + meet.distance,
+                            weight,
+                            index: flight.index,
+                            spread: flight.spread + roughness,
+                        };
+                        seen = self.light(&next, &meeting, draw);
+                    }
                 }
-            }
-            let free = lanes.but(followed);
-            if free.any() {
-                // Softboxes are blurred as a whole, not by samples; those that are seen at second hand are
-                // found by few, and would leave specks.
-                let mut room = self.lights.radiance(meet.point, exact, roughness, free);
-                if flight.depth > 0 {
-                    let most = F32x8::splat(BRIGHTEST_IN_A_MIRROR as f32);
-                    room = room.min(Vec3x8::grey(most));
+                let free = lanes.but(followed);
+                if free.any() {
+                    // Softboxes are blurred as a whole, not by samples; those that are seen at second hand are
+                    // found by few, and would leave specks.
+                    let mut room = self.lights.radiance(meet.point, exact, roughness, free);
+                    if flight.depth > 0 {
+                        let most = F32x8::splat(BRIGHTEST_IN_A_MIRROR as f32);
+                        room = room.min(Vec3x8::grey(most));
+                    }
+                    seen = Vec3x8::select(followed, seen, room);
                 }
-                seen = Vec3x8::select(followed, seen, room);
-            }
-            Vec3x8::select(lanes, share.times(seen), Vec3x8::zero())
-        })
+                Vec3x8::select(lanes, share.times(seen), Vec3x8::zero())
+            },
+        )
     }
 
     /// What is seen in glass, and through it.
     #[inline(never)]
     fn glass<S: Simd>(&self, flight: &Flight<S>, meet: &Meet<S>, draw: &mut Draw<S>) -> Vec3x8<S> {
-        S::run(#[inline(always)] || {
-            let (world, lanes) = (&self.world, flight.lanes);
-            let (zero, one) = (F32x8::splat(0.0), F32x8::splat(1.0));
-            let clearness = world.materials.transparency(meet.material);
-            let behind = meet.point - meet.outward * F32x8::splat(OFFSET);
-            let index = world.index_at(behind, lanes);
-            let ratio = flight.index / index;
-            let direction = flight.rays.direction;
-            let cosine = -direction.dot(meet.normal);
-            let (bent, gets_out) = refracted(direction, meet.normal, ratio);
-            // On the way out the angle that counts is the one outside.
-            let leaving = fresnel(-bent.dot(meet.normal), ratio);
-            let entering = fresnel(cosine, one / ratio);
-            let bends = ratio.gt(one).select(leaving, ratio.eq(one).select(zero, entering));
-            let mirrored = gets_out.select(bends, one);
-            let mut sum = Vec3x8::zero();
-            let glossy = lanes & mirrored.gt(zero);
-            if glossy.any() {
-                let flight = Flight { lanes: glossy, ..*flight };
-                sum = self.mirror(&flight, meet, Vec3x8::grey(mirrored), draw);
-            }
-            let through = lanes & gets_out;
-            if !through.any() {
-                return sum;
-            }
-            let share = (one - mirrored) * clearness;
-            let weight = flight.weight * share;
-            let depth = flight.depth + 1;
-            // Each of a body's two surfaces takes half of what its colour takes.
-            let tint = meet.color.max(Vec3x8::zero()).roots();
-            let least = F32x8::splat(world.scene.min_weight as f32);
-            let mut followed = Mask8::no_lanes();
-            let mut seen = Vec3x8::zero();
-            if depth <= world.scene.max_depth {
-                followed = through & weight.ge(least);
-            }
-            if followed.any() {
-                draw.counts.refracted += u64::from(followed.bits().count_ones());
-                let rays = Rays { origin: behind, direction: bent };
-                let meeting = self.nearest(&rays, followed, draw);
-                let hit = followed & meeting.lanes();
-                seen = Vec3x8::splat(self.background);
-                if hit.any() {
-                    let next = Flight {
-                        rays,
-                        lanes: hit,
-                        depth,
-                        length: flight.length + meet.distance,
-                        weight,
-                        index,
-                        spread: flight.spread,
-                    };
-                    seen = Vec3x8::select(hit, self.light(&next, &meeting, draw), seen);
+        S::run(
+            #[inline(always)]
+            || {
+                let (world, lanes) = (&self.world, flight.lanes);
+                let (zero, one) = (F32x8::splat(0.0), F32x8::splat(1.0));
+                let clearness = world.materials.transparency(meet.material);
+                let behind = meet.point - meet.outward * F32x8::splat(OFFSET);
+                let index = world.index_at(behind, lanes);
+                let ratio = flight.index / index;
+                let direction = flight.rays.direction;
+                let cosine = -direction.dot(meet.normal);
+                let (bent, gets_out) = refracted(direction, meet.normal, ratio);
+                // On the way out the angle that counts is the one outside.
+                let leaving = fresnel(-bent.dot(meet.normal), ratio);
+                let entering = fresnel(cosine, one / ratio);
+                let bends = ratio.gt(one).select(leaving, ratio.eq(one).select(zero, entering));
+                let mirrored = gets_out.select(bends, one);
+                let mut sum = Vec3x8::zero();
+                let glossy = lanes & mirrored.gt(zero);
+                if glossy.any() {
+                    let flight = Flight { lanes: glossy, ..*flight };
+                    sum = self.mirror(&flight, meet, Vec3x8::grey(mirrored), draw);
                 }
-            }
-            let lost = through.but(followed);
-            if lost.any() {
-                let room = self.lights.radiance(meet.point, bent, one, lost);
-                seen = Vec3x8::select(followed, seen, room);
-            }
-            sum += Vec3x8::select(through, tint.times(seen) * share, Vec3x8::zero());
-            let clouded = through & clearness.lt(one);
-            if flight.depth == 0 && clouded.any() {
-                let gathered = self.gathered(&Flight { lanes: clouded, ..*flight }, meet, draw);
-                let more = meet.color.times(gathered) * (one - clearness);
-                sum += Vec3x8::select(clouded, more, Vec3x8::zero());
-            }
-            sum
-        })
+                let through = lanes & gets_out;
+                if !through.any() {
+                    return sum;
+                }
+                let share = (one - mirrored) * clearness;
+                let weight = flight.weight * share;
+                let depth = flight.depth + 1;
+                // Each of a body's two surfaces takes half of what its colour takes.
+                let tint = meet.color.max(Vec3x8::zero()).roots();
+                let least = F32x8::splat(world.scene.min_weight as f32);
+                let mut followed = Mask8::no_lanes();
+                let mut seen = Vec3x8::zero();
+                if depth <= world.scene.max_depth {
+                    followed = through & weight.ge(least);
+                }
+                if followed.any() {
+                    draw.counts.refracted += u64::from(followed.bits().count_ones());
+                    let rays = Rays { origin: behind, direction: bent };
+                    let meeting = self.nearest(&rays, followed, draw);
+                    let hit = followed & meeting.lanes();
+                    seen = Vec3x8::splat(self.background);
+                    if hit.any() {
+                        let next = Flight {
+                            rays,
+                            lanes: hit,
+                            depth,
+                            length: flight.length + meet.distance,
+                            weight,
+                            index,
+                            spread: flight.spread,
+                        };
+                        seen = Vec3x8::select(hit, self.light(&next, &meeting, draw), seen);
+                    }
+                }
+                let lost = through.but(followed);
+                if lost.any() {
+                    let room = self.lights.radiance(meet.point, bent, one, lost);
+                    seen = Vec3x8::select(followed, seen, room);
+                }
+                sum += Vec3x8::select(through, tint.times(seen) * share, Vec3x8::zero());
+                let clouded = through & clearness.lt(one);
+                if flight.depth == 0 && clouded.any() {
+                    let gathered = self.gathered(&Flight { lanes: clouded, ..*flight }, meet, draw);
+                    let more = meet.color.times(gathered) * (one - clearness);
+                    sum += Vec3x8::select(clouded, more, Vec3x8::zero());
+                }
+                sum
+            },
+        )
     }
 }
 

@@ -162,27 +162,35 @@ impl<'a> World<'a> {
         lanes: Mask8<S>,
         touched: &mut Option<Touched<S>>,
     ) -> Meeting<S> {
-        S::run(#[inline(always)] || {
-            let nothing = U32x8::splat(NOTHING);
-            let mut found = Meeting { t: before, body: nothing, part: nothing };
-            self.visit(rays, Search { lanes, before }, #[inline(always)] |index, lanes, search| {
-                let body = &self.bodies[index];
-                // A hair more, so that what is in one place is compared.
-                let limit = found.t * F32x8::splat(1.0 + 2.0 * f32::EPSILON);
-                let crossing = body.nearest(rays, F32x8::splat(0.0), limit, lanes);
-                let number = U32x8::splat(index as u32);
-                let is_first = crossing.t.eq(found.t) & number.below(found.body);
-                let closer = lanes & (crossing.t.lt(found.t) | is_first);
-                found.t = closer.select(crossing.t, found.t);
-                found.body = closer.select_words(number, found.body);
-                found.part = closer.select_words(crossing.part, found.part);
-                search.before = found.t;
-            });
-            if let Some(touched) = touched {
-                touched.add_way(&self.space, rays, found.t, lanes);
-            }
-            found
-        })
+        S::run(
+            #[inline(always)]
+            || {
+                let nothing = U32x8::splat(NOTHING);
+                let mut found = Meeting { t: before, body: nothing, part: nothing };
+                self.visit(
+                    rays,
+                    Search { lanes, before },
+                    #[inline(always)]
+                    |index, lanes, search| {
+                        let body = &self.bodies[index];
+                        // A hair more, so that what is in one place is compared.
+                        let limit = found.t * F32x8::splat(1.0 + 2.0 * f32::EPSILON);
+                        let crossing = body.nearest(rays, F32x8::splat(0.0), limit, lanes);
+                        let number = U32x8::splat(index as u32);
+                        let is_first = crossing.t.eq(found.t) & number.below(found.body);
+                        let closer = lanes & (crossing.t.lt(found.t) | is_first);
+                        found.t = closer.select(crossing.t, found.t);
+                        found.body = closer.select_words(number, found.body);
+                        found.part = closer.select_words(crossing.part, found.part);
+                        search.before = found.t;
+                    },
+                );
+                if let Some(touched) = touched {
+                    touched.add_way(&self.space, rays, found.t, lanes);
+                }
+                found
+            },
+        )
     }
 
     /// How much of lights at `distance` comes along `rays`: what is opaque holds all of it back, each
@@ -195,31 +203,40 @@ impl<'a> World<'a> {
         lanes: Mask8<S>,
         touched: &mut Option<Touched<S>>,
     ) -> F32x8<S> {
-        S::run(#[inline(always)] || {
-            let mut share = lanes.keep(F32x8::splat(1.0));
-            self.visit(rays, Search { lanes, before: distance }, #[inline(always)] |index, lanes, search| {
-                let body = &self.bodies[index];
-                if body.is_transparent {
-                    let passed = self.passed(body, rays, distance, lanes);
-                    share = lanes.select(share * passed, share);
-                } else {
-                    let blocked = lanes & body.blocks(rays, F32x8::splat(0.0), distance, lanes);
-                    share = blocked.select(F32x8::splat(0.0), share);
-                    search.lanes = search.lanes.but(blocked);
-                    // Whatever else is in the way makes no difference.
-                    if let Some(touched) = touched
-                        && blocked.any()
-                    {
-                        touched.add(blocked, &body.regions);
-                    }
+        S::run(
+            #[inline(always)]
+            || {
+                let mut share = lanes.keep(F32x8::splat(1.0));
+                self.visit(
+                    rays,
+                    Search { lanes, before: distance },
+                    #[inline(always)]
+                    |index, lanes, search| {
+                        let body = &self.bodies[index];
+                        if body.is_transparent {
+                            let passed = self.passed(body, rays, distance, lanes);
+                            share = lanes.select(share * passed, share);
+                        } else {
+                            let blocked =
+                                lanes & body.blocks(rays, F32x8::splat(0.0), distance, lanes);
+                            share = blocked.select(F32x8::splat(0.0), share);
+                            search.lanes = search.lanes.but(blocked);
+                            // Whatever else is in the way makes no difference.
+                            if let Some(touched) = touched
+                                && blocked.any()
+                            {
+                                touched.add(blocked, &body.regions);
+                            }
+                        }
+                    },
+                );
+                if let Some(touched) = touched {
+                    let open = lanes & share.gt(F32x8::splat(0.0));
+                    touched.add_way(&self.space, rays, distance, open);
                 }
-            });
-            if let Some(touched) = touched {
-                let open = lanes & share.gt(F32x8::splat(0.0));
-                touched.add_way(&self.space, rays, distance, open);
-            }
-            share
-        })
+                share
+            },
+        )
     }
 
     /// What the surfaces of a transparent body let through up to `distance`.
@@ -230,25 +247,28 @@ impl<'a> World<'a> {
         distance: F32x8<S>,
         lanes: Mask8<S>,
     ) -> F32x8<S> {
-        S::run(#[inline(always)] || {
-            let mut share = F32x8::splat(1.0);
-            let mut after = F32x8::splat(0.0);
-            let mut lanes = lanes;
-            loop {
-                let crossing = body.nearest(rays, after, distance, lanes);
-                lanes = lanes & crossing.t.lt(distance);
-                if !lanes.any() {
-                    return share;
+        S::run(
+            #[inline(always)]
+            || {
+                let mut share = F32x8::splat(1.0);
+                let mut after = F32x8::splat(0.0);
+                let mut lanes = lanes;
+                loop {
+                    let crossing = body.nearest(rays, after, distance, lanes);
+                    lanes = lanes & crossing.t.lt(distance);
+                    if !lanes.any() {
+                        return share;
+                    }
+                    let point = rays.at(crossing.t);
+                    let normals = body.normals(point, crossing.part, lanes);
+                    let own = body.to_own.point(point - normals.flat * F32x8::splat(HAIR));
+                    let material = body.surface.material(own, lanes) + U32x8::splat(body.materials);
+                    let through = self.materials.transparency(material);
+                    share = lanes.select(share * through, share);
+                    after = lanes.select(crossing.t, after);
                 }
-                let point = rays.at(crossing.t);
-                let normals = body.normals(point, crossing.part, lanes);
-                let own = body.to_own.point(point - normals.flat * F32x8::splat(HAIR));
-                let material = body.surface.material(own, lanes) + U32x8::splat(body.materials);
-                let through = self.materials.transparency(material);
-                share = lanes.select(share * through, share);
-                after = lanes.select(crossing.t, after);
-            }
-        })
+            },
+        )
     }
 
     /// Shows `look` the bodies that rays may meet, each with the lanes that may, as long as the search goes on:
@@ -294,14 +314,19 @@ impl<'a> World<'a> {
             color: zero,
             material: U32x8::splat(0),
         };
-        self.each(meeting, lanes, #[inline(always)] |body, lanes| {
-            self.sight_of(body, point, meeting.part, seen, lanes, &mut sight);
-            if let Some(touched) = touched
-                && body.is_painted
-            {
-                touched.add_squares(&self.space, point, lanes);
-            }
-        });
+        self.each(
+            meeting,
+            lanes,
+            #[inline(always)]
+            |body, lanes| {
+                self.sight_of(body, point, meeting.part, seen, lanes, &mut sight);
+                if let Some(touched) = touched
+                    && body.is_painted
+                {
+                    touched.add_squares(&self.space, point, lanes);
+                }
+            },
+        );
         sight
     }
 
@@ -316,16 +341,19 @@ impl<'a> World<'a> {
         lanes: Mask8<S>,
         sight: &mut Sight<S>,
     ) {
-        S::run(#[inline(always)] || {
-            let normals = body.normals(point, part, lanes);
-            let own = body.to_own.point(point - normals.flat * F32x8::splat(HAIR));
-            let Look { color, material } = body.surface.look(own, seen, lanes);
-            let material = material + U32x8::splat(body.materials);
-            sight.normals.flat = Vec3x8::select(lanes, normals.flat, sight.normals.flat);
-            sight.normals.smooth = Vec3x8::select(lanes, normals.smooth, sight.normals.smooth);
-            sight.color = Vec3x8::select(lanes, color, sight.color);
-            sight.material = lanes.select_words(material, sight.material);
-        });
+        S::run(
+            #[inline(always)]
+            || {
+                let normals = body.normals(point, part, lanes);
+                let own = body.to_own.point(point - normals.flat * F32x8::splat(HAIR));
+                let Look { color, material } = body.surface.look(own, seen, lanes);
+                let material = material + U32x8::splat(body.materials);
+                sight.normals.flat = Vec3x8::select(lanes, normals.flat, sight.normals.flat);
+                sight.normals.smooth = Vec3x8::select(lanes, normals.smooth, sight.normals.smooth);
+                sight.color = Vec3x8::select(lanes, color, sight.color);
+                sight.material = lanes.select_words(material, sight.material);
+            },
+        );
     }
 
     /// The materials of what rays meet, without more.
@@ -338,16 +366,21 @@ impl<'a> World<'a> {
     ) -> U32x8<S> {
         let point = rays.at(meeting.t);
         let mut found = U32x8::splat(0);
-        self.each(meeting, lanes, #[inline(always)] |body, lanes| {
-            let material = if body.surface.is_uniform() {
-                U32x8::splat(body.materials)
-            } else {
-                let normals = body.normals(point, meeting.part, lanes);
-                let own = body.to_own.point(point - normals.flat * F32x8::splat(HAIR));
-                body.surface.material(own, lanes) + U32x8::splat(body.materials)
-            };
-            found = lanes.select_words(material, found);
-        });
+        self.each(
+            meeting,
+            lanes,
+            #[inline(always)]
+            |body, lanes| {
+                let material = if body.surface.is_uniform() {
+                    U32x8::splat(body.materials)
+                } else {
+                    let normals = body.normals(point, meeting.part, lanes);
+                    let own = body.to_own.point(point - normals.flat * F32x8::splat(HAIR));
+                    body.surface.material(own, lanes) + U32x8::splat(body.materials)
+                };
+                found = lanes.select_words(material, found);
+            },
+        );
         found
     }
 
@@ -372,20 +405,23 @@ impl<'a> World<'a> {
     /// The refractive index at `points`: that of all that is transparent, where it lies inside any of
     /// it (Turek 2008, 4.2).
     pub fn index_at<S: Simd>(&self, points: Vec3x8<S>, lanes: Mask8<S>) -> F32x8<S> {
-        S::run(#[inline(always)] || {
-            let mut inside = Mask8::no_lanes();
-            for index in &self.transparent {
-                let body = &self.bodies[*index];
-                let (min, max) = (Vec3x8::splat(body.min), Vec3x8::splat(body.max));
-                let near = points.x.ge(min.x) & points.y.ge(min.y) & points.z.ge(min.z);
-                let near = near & points.x.le(max.x) & points.y.le(max.y) & points.z.le(max.z);
-                let near = lanes.but(inside) & (near | Mask8::splat(body.is_endless));
-                if near.any() {
-                    inside = inside | near & body.contains(points, near);
+        S::run(
+            #[inline(always)]
+            || {
+                let mut inside = Mask8::no_lanes();
+                for index in &self.transparent {
+                    let body = &self.bodies[*index];
+                    let (min, max) = (Vec3x8::splat(body.min), Vec3x8::splat(body.max));
+                    let near = points.x.ge(min.x) & points.y.ge(min.y) & points.z.ge(min.z);
+                    let near = near & points.x.le(max.x) & points.y.le(max.y) & points.z.le(max.z);
+                    let near = lanes.but(inside) & (near | Mask8::splat(body.is_endless));
+                    if near.any() {
+                        inside = inside | near & body.contains(points, near);
+                    }
                 }
-            }
-            inside.select(F32x8::splat(self.scene.snell_index as f32), F32x8::splat(1.0))
-        })
+                inside.select(F32x8::splat(self.scene.snell_index as f32), F32x8::splat(1.0))
+            },
+        )
     }
 }
 

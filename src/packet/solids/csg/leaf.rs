@@ -131,7 +131,7 @@ fn nearest<S: Simd>(
     before: F32x8<S>,
     lanes: Mask8<S>,
 ) -> Crossing<S> {
-    S::run(|| solid.nearest(rays, after, before, lanes))
+    S::run(#[inline(always)] || solid.nearest(rays, after, before, lanes))
 }
 
 #[inline(never)]
@@ -142,12 +142,12 @@ fn blocks<S: Simd>(
     before: F32x8<S>,
     lanes: Mask8<S>,
 ) -> Mask8<S> {
-    S::run(|| solid.blocks(rays, after, before, lanes))
+    S::run(#[inline(always)] || solid.blocks(rays, after, before, lanes))
 }
 
 #[inline(never)]
 fn contains<S: Simd>(solid: &Solid, points: Vec3x8<S>, lanes: Mask8<S>) -> Mask8<S> {
-    S::run(|| solid.contains(points, lanes))
+    S::run(#[inline(always)] || solid.contains(points, lanes))
 }
 
 #[inline(never)]
@@ -157,5 +157,5 @@ fn normals<S: Simd>(
     parts: U32x8<S>,
     lanes: Mask8<S>,
 ) -> Normals<S> {
-    S::run(|| solid.normals(points, parts, lanes))
+    S::run(#[inline(always)] || solid.normals(points, parts, lanes))
 }

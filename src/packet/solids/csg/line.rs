@@ -28,7 +28,7 @@ impl<S: Simd> Line<S> {
         let zero = F32x8::splat(0.0);
         let line = Line {
             rays: Rays { origin: rays.at(moved), direction },
-            per_length: direction.map(F32x8::recip),
+            per_length: direction.recips(),
             across: per_length2.sqrt() * F32x8::splat(ACROSS),
             falls: [direction.x, direction.y, direction.z].map(|along| along.lt(zero).bits()),
         };

@@ -113,7 +113,7 @@ impl Csg {
         before: F32x8<S>,
         lanes: Mask8<S>,
     ) -> Crossing<S> {
-        S::run(|| {
+        S::run(#[inline(always)] || {
             let (line, moved) = Line::new(rays, self.nodes[node].middle());
             let found = self.nearest_of_node(
                 node,
@@ -135,7 +135,7 @@ impl Csg {
         before: F32x8<S>,
         lanes: Mask8<S>,
     ) -> Mask8<S> {
-        S::run(|| {
+        S::run(#[inline(always)] || {
             let (line, moved) = Line::new(rays, self.nodes[node].middle());
             let (after, before) = (after - moved + line.across, before - moved);
             self.node_blocks(node, &line, after, before, lanes)
@@ -150,7 +150,7 @@ impl Csg {
         parts: U32x8<S>,
         lanes: Mask8<S>,
     ) -> Normals<S> {
-        S::run(|| {
+        S::run(#[inline(always)] || {
             let numbers = parts >> self.own_bits;
             let own = parts & U32x8::splat((1 << self.own_bits) - 1);
             let each = numbers.store();

@@ -133,7 +133,7 @@ impl Csg {
     /// Whether points lie inside of a node.
     #[inline(never)]
     fn node_holds<S: Simd>(&self, node: usize, points: Vec3x8<S>, lanes: Mask8<S>) -> Mask8<S> {
-        S::run(|| {
+        S::run(#[inline(always)] || {
             let node = &self.nodes[node];
             let within = lanes & node.aabb.holds(points);
             let mut rest = within;
@@ -167,7 +167,7 @@ impl Csg {
         before: F32x8<S>,
         lanes: Mask8<S>,
     ) -> Crossing<S> {
-        S::run(|| {
+        S::run(#[inline(always)] || {
             let node = &self.nodes[node];
             let (enter, exit) = node.aabb.clip(line);
             let lanes = lanes & enter.max(after).le(exit.min(before));
