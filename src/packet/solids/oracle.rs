@@ -147,8 +147,6 @@ pub fn ask_each(solid: &Solid, questions: &[(Ray, f32, f32)]) -> Vec<Found> {
 
 /// Holds what is found against the scalar solid: a difference is none where a ray that is off by no more than
 /// `slack` finds what the packet found. Gives how many rays meet the solid.
-///
-/// `normals` may differ by that much where the same place is met.
 pub fn hold(
     name: &str,
     scalar: &dyn geometry::Solid,
