@@ -148,7 +148,7 @@ impl Prism {
 
     /// Places in the outline's plane, from its middle.
     #[inline(always)]
-    fn from_middle<S: Simd>(&self, points: &Vec3x8<S>) -> [F32x8<S>; 2] {
+    fn off_middle<S: Simd>(&self, points: &Vec3x8<S>) -> [F32x8<S>; 2] {
         let [x, y] = self.middle;
         [points.x - F32x8::splat(x), points.y - F32x8::splat(y)]
     }
