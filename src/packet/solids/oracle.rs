@@ -147,8 +147,6 @@ pub fn ask_each(solid: &Solid, questions: &[(Ray, f32, f32)]) -> Vec<Found> {
 
 /// Holds what is found against the scalar solid: a difference is none where a ray that is off by no more than
 /// `slack` finds what the packet found. Gives how many rays meet the solid.
-///
-/// `normals` may differ by that much where the same place is met.
 pub fn hold(
     name: &str,
     scalar: &dyn geometry::Solid,
@@ -175,7 +173,7 @@ pub fn hold(
         let upwards = ray.direction.cross(sideways).normalize();
         let shifted = || {
             (0..24).map(|step| {
-                let (sin, cos) = libm::sincos(f64::from(step % 8) * 0.785_398_163);
+                let (sin, cos) = libm::sincos(f64::from(step % 8) * std::f64::consts::FRAC_PI_4);
                 let by = slack * [0.3, 1.0, 2.0][step as usize / 8];
                 Ray { origin: ray.origin + (sideways * cos + upwards * sin) * by, ..ray }
             })
@@ -210,7 +208,7 @@ pub fn hold(
             let point = ray.at(f64::from(found.t));
             let (aside, along) = found.flat.normalize().any_orthonormal_pair();
             let has_normals = (0..17).any(|step| {
-                let (sin, cos) = libm::sincos(f64::from(step % 8) * 0.785_398_163);
+                let (sin, cos) = libm::sincos(f64::from(step % 8) * std::f64::consts::FRAC_PI_4);
                 let by = slack * [0.0, 1.0, 4.0][(step as usize).div_ceil(8)];
                 let origin = point + (aside * cos + along * sin) * by;
                 let mut spans = Spans::new();

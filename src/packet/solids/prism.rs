@@ -148,7 +148,7 @@ impl Prism {
 
     /// Places in the outline's plane, from its middle.
     #[inline(always)]
-    fn from_middle<S: Simd>(&self, points: &Vec3x8<S>) -> [F32x8<S>; 2] {
+    fn off_middle<S: Simd>(&self, points: &Vec3x8<S>) -> [F32x8<S>; 2] {
         let [x, y] = self.middle;
         [points.x - F32x8::splat(x), points.y - F32x8::splat(y)]
     }
@@ -184,7 +184,7 @@ impl Prism {
             is_along.select(F32x8::splat(0.0), direction.y),
         ];
         let per_qq = (q[0] * q[0] + q[1] * q[1]).recip();
-        let p = self.from_middle(origin);
+        let p = self.off_middle(origin);
         let closest = -(p[0] * q[0] + p[1] * q[1]) * per_qq;
         let within = self.lids(origin.z, per_dz);
         let start = closest.max(within[0]).min(within[1]);
@@ -296,7 +296,7 @@ impl Prism {
 
     #[inline(always)]
     pub fn contains<S: Simd>(&self, points: Vec3x8<S>, lanes: Mask8<S>) -> Mask8<S> {
-        let [x, y] = self.from_middle(&points);
+        let [x, y] = self.off_middle(&points);
         let lanes = lanes & self.is_between(points.z);
         // An odd number of walls lies to the right when inside; runs without any are left out.
         let mut inside = Mask8::no_lanes();
@@ -332,7 +332,7 @@ impl Prism {
     ) -> Normals<S> {
         let count = self.walls.len() as u32;
         let (zero, one) = (F32x8::splat(0.0), F32x8::splat(1.0));
-        let [x, y] = self.from_middle(&points);
+        let [x, y] = self.off_middle(&points);
         let slope = self.slopes.at(x, y, parts);
         let is_back = parts.eq(U32x8::splat(count));
         let is_lid = is_back | parts.eq(U32x8::splat(count + 1));

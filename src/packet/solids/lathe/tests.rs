@@ -1,6 +1,5 @@
 use glam::{DVec2, DVec3};
 
-use super::super::Solid as Packet;
 use super::super::oracle::{Chance, hold, lathes};
 use crate::assets::{PieceSet, SetName, piece_set};
 use crate::geometry::{ControlPoint, Interval, Lathe, Normals, Profile, Ray, Solid};
@@ -119,86 +118,6 @@ fn pieces_are_met_as_the_scalar_ones_are() {
         lathes(piece, &mut found);
         for lathe in found {
             held(&format!("piece {index}"), lathe, &mut chance, 20_000);
-        }
-    }
-}
-
-#[test]
-#[ignore]
-fn speed() {
-    use crate::lanes::{F32x8, Mask8, Simd, Task, Vec3x8, dispatch};
-    use crate::packet::Rays;
-    struct Bench<'a>(&'a Packet, &'a [[Ray; 8]], bool);
-    impl Task for Bench<'_> {
-        type Output = (f64, usize);
-        #[inline(always)]
-        fn run<S: Simd>(self) -> (f64, usize) {
-            let rays: Vec<Rays<S>> = self
-                .1
-                .iter()
-                .map(|rays| Rays {
-                    origin: Vec3x8::load(&rays.map(|ray| ray.origin)),
-                    direction: Vec3x8::load(&rays.map(|ray| ray.direction)),
-                })
-                .collect();
-            let Packet::Lathe(lathe) = self.0 else { panic!() };
-            let mut best = f64::INFINITY;
-            let mut met = 0;
-            for _ in 0..15 {
-                met = 0;
-                let start = std::time::Instant::now();
-                for ray in &rays {
-                    let after = F32x8::splat(0.0);
-                    let before = F32x8::splat(f32::INFINITY);
-                    let bits = if self.2 {
-                        lathe.blocks(ray, after, before, Mask8::all_lanes()).bits()
-                    } else {
-                        lathe.nearest(ray, after, before, Mask8::all_lanes()).t.lt(before).bits()
-                    };
-                    met += bits.count_ones() as usize;
-                }
-                best = best.min(start.elapsed().as_secs_f64());
-            }
-            ((rays.len() * 8) as f64 / best / 1e6, met * 100 / (rays.len() * 8))
-        }
-    }
-    let set = staunton();
-    for (name, piece) in [("queen", &set.queen), ("king", &set.king), ("pawn", &set.pawn)] {
-        let mut found = Vec::new();
-        lathes(piece, &mut found);
-        let lathe = found[0];
-        let packet = Packet::new(lathe);
-        let bounds = lathe.bounds();
-        for (view, eye) in [
-            ("slanted", DVec3::new(2.0, 6.0, -7.0)),
-            ("level", DVec3::new(0.0, 0.6, -9.0)),
-            ("above", DVec3::new(0.3, 12.0, -0.5)),
-            ("below", DVec3::new(3.0, -5.0, -2.0)),
-        ] {
-            // Pixels of 2 × 4 a packet, over the silhouette's square.
-            let middle = (bounds.min + bounds.max) / 2.0;
-            let forward = (middle - eye).normalize();
-            let right = forward.cross(DVec3::Y).normalize();
-            let up = right.cross(forward);
-            let half = (0.5 * (1.0 - forward.y.abs()) + bounds.max.x, bounds.max.x * 1.1);
-            let (rows, columns) = (100_usize, 50_usize);
-            let mut packets = Vec::new();
-            for row in (0..rows).step_by(2) {
-                for column in (0..columns).step_by(4) {
-                    packets.push(std::array::from_fn(|lane| {
-                        let y = ((row + lane / 4) as f64 + 0.5) / rows as f64 * 2.0 - 1.0;
-                        let x = ((column + lane % 4) as f64 + 0.5) / columns as f64 * 2.0 - 1.0;
-                        let to = middle + up * y * half.0 + right * x * half.1;
-                        Ray { origin: eye, direction: (to - eye).normalize() / 6.0 }
-                    }));
-                }
-            }
-            let (nearest, met) = dispatch(Bench(&packet, &packets, false));
-            let (blocks, _) = dispatch(Bench(&packet, &packets, true));
-            println!(
-                "{name} {view}: {nearest:.1} M nearest/s, {blocks:.1} M blocks/s, {met} % met, {} segments",
-                lathe.segments().len()
-            );
         }
     }
 }

@@ -1,7 +1,8 @@
 use glam::{DVec2, DVec3};
 
-use super::super::oracle::{Chance, hold};
-use crate::geometry::{ControlPoint, Interval, Normals, Outline, Prism, Ray, Solid};
+use super::super::Solid as Packet;
+use super::super::oracle::{Chance, ask_each, hold};
+use crate::geometry::{ControlPoint, Interval, Normals, Outline, Prism, Ray, Solid, Spans};
 
 fn prism(points: &[(f64, f64)], steps: u32, [back, front]: [f64; 2]) -> Prism {
     let control = points
@@ -56,11 +57,14 @@ fn questions(prism: &Prism, chance: &mut Chance, count: usize) -> Vec<(Ray, f32,
                 let along = chance.direction().with_z(0.0).normalize_or(DVec3::X);
                 (within(chance) - along * 5.0 * size, along)
             }
-            // Within a wall, or nearly so.
+            // Nearly within a wall.
             7 => {
-                let along = (segment.to - segment.from).normalize();
+                let turn = 10.0_f64.powf(chance.between(-3.0, -1.0));
+                let (sin, cos) = libm::sincos(if chance.next() < 0.5 { turn } else { -turn });
+                let along = DVec2::new(cos, sin).rotate((segment.to - segment.from).normalize());
+                let at = segment.from.lerp(segment.to, chance.next());
+                let before = at - along * chance.between(1.0, 7.0);
                 let slope = chance.between(-0.3, 0.3);
-                let before = segment.from - along * chance.between(1.0, 7.0);
                 (before.extend(z), along.extend(slope).normalize())
             }
             // From the surface.
@@ -90,4 +94,60 @@ fn prisms_are_met_as_the_scalar_ones_are() {
         let met = hold(&format!("prism {index}"), prism, &questions, slack);
         assert!(met > 2000, "prism {index}: {met} are met");
     }
+}
+
+/// A ray within the plane of a wall meets the prism where the prism is, and nowhere else.
+#[test]
+fn rays_within_a_wall_stay_on_it() {
+    let prism = &shapes()[2];
+    let mut questions = Vec::new();
+    for segment in prism.segments() {
+        for step in 0..200 {
+            let along = (segment.to - segment.from).normalize();
+            let before = segment.from - along * (1.0 + 0.013 * f64::from(step));
+            let direction = along.extend(0.004 * f64::from(step)).normalize();
+            questions.push((Ray { origin: before.extend(-3.0), direction }, 0.0, f32::INFINITY));
+        }
+    }
+    let found = ask_each(&Packet::new(prism), &questions);
+    let (low, high) = (prism.bounds().min - 1e-4, prism.bounds().max + 1e-4);
+    for ((ray, ..), found) in questions.iter().zip(found) {
+        let point = ray.at(f64::from(found.t));
+        assert!(found.t == f32::INFINITY || point.clamp(low, high) == point, "{point}");
+    }
+}
+
+/// Asked again from each crossing on, a prism tells all of them, the same whatever lies before.
+#[test]
+fn crossings_come_one_after_the_other() {
+    let prism = &shapes()[2];
+    let mut chance = Chance(4);
+    let packet = Packet::new(prism);
+    let rays: Vec<Ray> =
+        questions(prism, &mut chance, 900).into_iter().map(|(ray, ..)| ray).collect();
+    let mut open: Vec<(Ray, f32, f32)> =
+        rays.iter().map(|ray| (*ray, 0.0, f32::INFINITY)).collect();
+    let mut crossings = 0_usize;
+    while !open.is_empty() {
+        let found = ask_each(&packet, &open);
+        let mut next = Vec::new();
+        for ((ray, after, before), found) in open.into_iter().zip(found) {
+            assert!(found.t > after && (found.t < before || found.t == f32::INFINITY));
+            if found.t < f32::INFINITY {
+                crossings += 1;
+                next.push((ray, found.t, f32::INFINITY));
+            }
+        }
+        open = next;
+    }
+    let expected: usize = rays
+        .iter()
+        .map(|ray| {
+            let mut spans = Spans::new();
+            prism.spans(ray, &mut spans);
+            let ends = spans.iter().flat_map(|span| [span.enter.t, span.exit.t]);
+            ends.filter(|t| *t > 0.0).count()
+        })
+        .sum();
+    assert!(crossings.abs_diff(expected) <= 4, "{crossings} crossings, expected {expected}");
 }
