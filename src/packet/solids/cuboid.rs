@@ -59,8 +59,6 @@ impl Cuboid {
 
     #[inline(always)]
     pub fn contains<S: Simd>(&self, points: Vec3x8<S>, _lanes: Mask8<S>) -> Mask8<S> {
-        let within =
-            |x: F32x8<S>, min: f32, max: f32| x.gt(F32x8::splat(min)) & x.lt(F32x8::splat(max));
         within(points.x, self.min.x, self.max.x)
             & within(points.y, self.min.y, self.max.y)
             & within(points.z, self.min.z, self.max.z)
@@ -75,7 +73,16 @@ impl Cuboid {
     ) -> Normals<S> {
         let is_upper = (parts & U32x8::splat(1)).eq(U32x8::splat(1));
         let outward = is_upper.select(F32x8::splat(1.0), F32x8::splat(-1.0));
-        let along = |axis: u32| (parts >> 1).eq(U32x8::splat(axis)).keep(outward);
-        Normals::flat(Vec3x8::new(along(0), along(1), along(2)))
+        let axis = parts >> 1;
+        Normals::flat(Vec3x8::new(
+            axis.eq(U32x8::splat(0)).keep(outward),
+            axis.eq(U32x8::splat(1)).keep(outward),
+            axis.eq(U32x8::splat(2)).keep(outward),
+        ))
     }
+}
+
+#[inline(always)]
+fn within<S: Simd>(x: F32x8<S>, min: f32, max: f32) -> Mask8<S> {
+    x.gt(F32x8::splat(min)) & x.lt(F32x8::splat(max))
 }

@@ -125,7 +125,6 @@ impl Hierarchy {
     ) {
         // All lines share an order, that of one among them.
         let first = 1_u8 << (lanes.bits().trailing_zeros() & 7);
-        let falls = line.falls.map(|falls| falls & first != 0);
         let mut pending = Pending::new(lanes.any() && !self.boxes.is_empty());
         while let Some(index) = pending.pop() {
             let branch = &self.boxes[index as usize];
@@ -139,7 +138,7 @@ impl Hierarchy {
                 if !lanes.any() {
                     return;
                 }
-            } else if falls[branch.axis] {
+            } else if line.falls[branch.axis] & first != 0 {
                 pending.push(index + 1);
                 pending.push(branch.second);
             } else {

@@ -7,10 +7,6 @@ use glam::DAffine3;
 use super::tree::Placed;
 use crate::geometry;
 use crate::lanes::{F32x8, Mask8, Simd, U32x8, Vec3x8};
-use crate::packet::solids::cuboid::Cuboid;
-use crate::packet::solids::lathe::Lathe;
-use crate::packet::solids::plane::Plane;
-use crate::packet::solids::prism::Prism;
 use crate::packet::solids::sphere::nearest_of_ball;
 use crate::packet::solids::{Crossing, Normals, Solid};
 use crate::packet::{Rays, Transform};
@@ -113,11 +109,14 @@ impl Leaf {
             Shape::Ball => Normals::flat(own),
             Shape::Other(solid) => normals(solid, own, parts, lanes),
         };
-        let carried = |normal: Vec3x8<S>| {
-            let normal = self.to_own.normal(normal).normalized();
-            if self.is_turned { -normal } else { normal }
-        };
-        Normals { flat: carried(found.flat), smooth: carried(found.smooth) }
+        Normals { flat: self.carried(found.flat), smooth: self.carried(found.smooth) }
+    }
+
+    /// A normal in the tree's space.
+    #[inline(always)]
+    fn carried<S: Simd>(&self, normal: Vec3x8<S>) -> Vec3x8<S> {
+        let normal = self.to_own.normal(normal).normalized();
+        if self.is_turned { -normal } else { normal }
     }
 }
 
@@ -131,7 +130,10 @@ fn nearest<S: Simd>(
     before: F32x8<S>,
     lanes: Mask8<S>,
 ) -> Crossing<S> {
-    S::run(#[inline(always)] || solid.nearest(rays, after, before, lanes))
+    S::run(
+        #[inline(always)]
+        || solid.nearest(rays, after, before, lanes),
+    )
 }
 
 #[inline(never)]
@@ -142,12 +144,18 @@ fn blocks<S: Simd>(
     before: F32x8<S>,
     lanes: Mask8<S>,
 ) -> Mask8<S> {
-    S::run(#[inline(always)] || solid.blocks(rays, after, before, lanes))
+    S::run(
+        #[inline(always)]
+        || solid.blocks(rays, after, before, lanes),
+    )
 }
 
 #[inline(never)]
 fn contains<S: Simd>(solid: &Solid, points: Vec3x8<S>, lanes: Mask8<S>) -> Mask8<S> {
-    S::run(#[inline(always)] || solid.contains(points, lanes))
+    S::run(
+        #[inline(always)]
+        || solid.contains(points, lanes),
+    )
 }
 
 #[inline(never)]
@@ -157,5 +165,8 @@ fn normals<S: Simd>(
     parts: U32x8<S>,
     lanes: Mask8<S>,
 ) -> Normals<S> {
-    S::run(#[inline(always)] || solid.normals(points, parts, lanes))
+    S::run(
+        #[inline(always)]
+        || solid.normals(points, parts, lanes),
+    )
 }

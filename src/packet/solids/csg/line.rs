@@ -30,7 +30,11 @@ impl<S: Simd> Line<S> {
             rays: Rays { origin: rays.at(moved), direction },
             per_length: direction.recips(),
             across: per_length2.sqrt() * F32x8::splat(ACROSS),
-            falls: [direction.x, direction.y, direction.z].map(|along| along.lt(zero).bits()),
+            falls: [
+                direction.x.lt(zero).bits(),
+                direction.y.lt(zero).bits(),
+                direction.z.lt(zero).bits(),
+            ],
         };
         (line, moved)
     }

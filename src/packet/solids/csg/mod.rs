@@ -113,17 +113,20 @@ impl Csg {
         before: F32x8<S>,
         lanes: Mask8<S>,
     ) -> Crossing<S> {
-        S::run(#[inline(always)] || {
-            let (line, moved) = Line::new(rays, self.nodes[node].middle());
-            let found = self.nearest_of_node(
-                node,
-                &line,
-                after - moved + line.across,
-                before - moved,
-                lanes,
-            );
-            Crossing::between(found.t + moved, found.part, after, before)
-        })
+        S::run(
+            #[inline(always)]
+            || {
+                let (line, moved) = Line::new(rays, self.nodes[node].middle());
+                let found = self.nearest_of_node(
+                    node,
+                    &line,
+                    after - moved + line.across,
+                    before - moved,
+                    lanes,
+                );
+                Crossing::between(found.t + moved, found.part, after, before)
+            },
+        )
     }
 
     #[inline(never)]
@@ -135,11 +138,14 @@ impl Csg {
         before: F32x8<S>,
         lanes: Mask8<S>,
     ) -> Mask8<S> {
-        S::run(#[inline(always)] || {
-            let (line, moved) = Line::new(rays, self.nodes[node].middle());
-            let (after, before) = (after - moved + line.across, before - moved);
-            self.node_blocks(node, &line, after, before, lanes)
-        })
+        S::run(
+            #[inline(always)]
+            || {
+                let (line, moved) = Line::new(rays, self.nodes[node].middle());
+                let (after, before) = (after - moved + line.across, before - moved);
+                self.node_blocks(node, &line, after, before, lanes)
+            },
+        )
     }
 
     /// Asks each leaf once for all lanes that hit it.
@@ -150,24 +156,27 @@ impl Csg {
         parts: U32x8<S>,
         lanes: Mask8<S>,
     ) -> Normals<S> {
-        S::run(#[inline(always)] || {
-            let numbers = parts >> self.own_bits;
-            let own = parts & U32x8::splat((1 << self.own_bits) - 1);
-            let each = numbers.store();
-            let mut normals = Normals::flat(Vec3x8::zero());
-            let mut rest = lanes;
-            while rest.any() {
-                let number = each[rest.bits().trailing_zeros() as usize];
-                let hit = rest & numbers.eq(U32x8::splat(number));
-                // Lanes that were asked for hit something: there is such a leaf.
-                if let Some(leaf) = self.leaves.get(number as usize) {
-                    let found = leaf.normals(points, own, hit);
-                    normals.flat = Vec3x8::select(hit, found.flat, normals.flat);
-                    normals.smooth = Vec3x8::select(hit, found.smooth, normals.smooth);
+        S::run(
+            #[inline(always)]
+            || {
+                let numbers = parts >> self.own_bits;
+                let own = parts & U32x8::splat((1 << self.own_bits) - 1);
+                let each = numbers.store();
+                let mut normals = Normals::flat(Vec3x8::zero());
+                let mut rest = lanes;
+                while rest.any() {
+                    let number = each[rest.bits().trailing_zeros() as usize];
+                    let hit = rest & numbers.eq(U32x8::splat(number));
+                    // Lanes that were asked for hit something: there is such a leaf.
+                    if let Some(leaf) = self.leaves.get(number as usize) {
+                        let found = leaf.normals(points, own, hit);
+                        normals.flat = Vec3x8::select(hit, found.flat, normals.flat);
+                        normals.smooth = Vec3x8::select(hit, found.smooth, normals.smooth);
+                    }
+                    rest = rest.but(hit);
                 }
-                rest = rest.but(hit);
-            }
-            normals
-        })
+                normals
+            },
+        )
     }
 }

@@ -130,31 +130,48 @@ impl Csg {
         }
     }
 
+    /// In which of `lanes` a member of `node` gives the absorbing answer.
+    #[inline(always)]
+    fn absorbs<S: Simd>(
+        &self,
+        node: &Node,
+        member: Member,
+        points: Vec3x8<S>,
+        lanes: Mask8<S>,
+    ) -> Mask8<S> {
+        let holds = self.member_holds(member, points, lanes);
+        if node.absorbing { lanes & holds } else { lanes.but(holds) }
+    }
+
     /// Whether points lie inside of a node.
     #[inline(never)]
     fn node_holds<S: Simd>(&self, node: usize, points: Vec3x8<S>, lanes: Mask8<S>) -> Mask8<S> {
-        S::run(#[inline(always)] || {
-            let node = &self.nodes[node];
-            let within = lanes & node.aabb.holds(points);
-            let mut rest = within;
-            let absorbs = |member: Member, rest: Mask8<S>| {
-                let holds = self.member_holds(member, points, rest);
-                if node.absorbing { holds } else { !holds }
-            };
-            for member in &node.wide {
-                if !rest.any() {
-                    break;
+        S::run(
+            #[inline(always)]
+            || {
+                let node = &self.nodes[node];
+                let within = lanes & node.aabb.holds(points);
+                let mut rest = within;
+                for member in &node.wide {
+                    if !rest.any() {
+                        break;
+                    }
+                    rest = rest.but(self.absorbs(node, *member, points, rest));
                 }
-                rest = rest.but(absorbs(*member, rest));
-            }
-            let is_left = rest;
-            node.boxes.around(points, is_left, |item, near| {
-                rest = rest.but(near & absorbs(node.local[item], near));
-                (points, rest)
-            });
-            let inside = if node.absorbing { within.but(rest) } else { rest };
-            if node.beyond { inside | !within } else { inside }
-        })
+                let is_left = rest;
+                node.boxes.around(
+                    points,
+                    is_left,
+                    #[inline(always)]
+                    |item, near| {
+                        rest = rest.but(self.absorbs(node, node.local[item], points, near));
+                        (points, rest)
+                    },
+                );
+                let inside = if node.absorbing { within.but(rest) } else { rest };
+                if node.beyond { inside | !within } else { inside }
+            },
+        )
     }
 
     /// The first crossing of a node's surface between two distances.
@@ -167,22 +184,25 @@ impl Csg {
         before: F32x8<S>,
         lanes: Mask8<S>,
     ) -> Crossing<S> {
-        S::run(#[inline(always)] || {
-            let node = &self.nodes[node];
-            let (enter, exit) = node.aabb.clip(line);
-            let lanes = lanes & enter.max(after).le(exit.min(before));
-            if !lanes.any() {
-                return Crossing::none();
-            }
-            let at = enter.max(after);
-            // What is outside of all boxes is absorbed by wide members, or by none.
-            let open = if node.wide.is_empty() { lanes & enter.le(after) } else { lanes };
-            let (absorbed, last) = self.leave_absorbing(node, line, at, before, open);
-            let free = lanes.but(absorbed);
-            let nearest = self.nearest_of_any(node, line, at, before, free);
-            let found = Crossing::select(absorbed, last, nearest);
-            Crossing::between(found.t, found.part, after, before)
-        })
+        S::run(
+            #[inline(always)]
+            || {
+                let node = &self.nodes[node];
+                let (enter, exit) = node.aabb.clip(line);
+                let lanes = lanes & enter.max(after).le(exit.min(before));
+                if !lanes.any() {
+                    return Crossing::none();
+                }
+                let at = enter.max(after);
+                // What is outside of all boxes is absorbed by wide members, or by none.
+                let open = if node.wide.is_empty() { lanes & enter.le(after) } else { lanes };
+                let (absorbed, last) = self.leave_absorbing(node, line, at, before, open);
+                let free = lanes.but(absorbed);
+                let nearest = self.nearest_of_any(node, line, at, before, free);
+                let found = Crossing::select(absorbed, last, nearest);
+                Crossing::between(found.t, found.part, after, before)
+            },
+        )
     }
 
     /// Whether a node's surface is crossed anywhere between two distances.
@@ -204,17 +224,24 @@ impl Csg {
         let hard = lanes.but(easy);
         let mut blocked = Mask8::no_lanes();
         let mut rest = easy;
-        node.boxes.along(line, after, before, easy, |item, _, near| {
-            let found = match node.local[item] {
-                Member::Leaf(leaf) => self.leaves[leaf].blocks(&line.rays, after, before, near),
-                Member::Node(node) => {
-                    self.nearest_of_node(node, line, after, before, near).is_one()
-                }
-            };
-            blocked = blocked | (found & near);
-            rest = rest.but(blocked);
-            (before, rest)
-        });
+        node.boxes.along(
+            line,
+            after,
+            before,
+            easy,
+            #[inline(always)]
+            |item, _, near| {
+                let found = match node.local[item] {
+                    Member::Leaf(leaf) => self.leaves[leaf].blocks(&line.rays, after, before, near),
+                    Member::Node(node) => {
+                        self.nearest_of_node(node, line, after, before, near).is_one()
+                    }
+                };
+                blocked = blocked | (found & near);
+                rest = rest.but(blocked);
+                (before, rest)
+            },
+        );
         if hard.any() {
             let found = self.nearest_of_node(index, line, after, before, hard);
             blocked = blocked | (hard & found.is_one());
@@ -233,24 +260,41 @@ impl Csg {
         lanes: Mask8<S>,
     ) -> Crossing<S> {
         let mut best = Crossing { t: before, part: U32x8::splat(0) };
-        let mut ask = |member: Member, near: Mask8<S>| {
-            // A little farther: of walls in one place the first one's counts, in whatever order they come.
-            let limit = best.t + line.across;
-            let found = self.nearest_of_member(member, line, after, limit, near);
-            let is_first = (found.part - best.part).shr_signed(31).eq(U32x8::splat(u32::MAX));
-            let is_nearer = found.t.lt(best.t) | (found.t.eq(best.t) & is_first);
-            best = Crossing::select(near & is_nearer, found, best);
-            limit
-        };
         if lanes.any() {
             for member in &node.wide {
-                ask(*member, lanes);
+                best = self.nearer(*member, line, after, best, lanes);
             }
         }
-        node.boxes.along(line, after, before, lanes, |item, _, near| {
-            (ask(node.local[item], near), lanes)
-        });
+        let start = best.t + line.across;
+        node.boxes.along(
+            line,
+            after,
+            start,
+            lanes,
+            #[inline(always)]
+            |item, _, near| {
+                best = self.nearer(node.local[item], line, after, best, near);
+                (best.t + line.across, lanes)
+            },
+        );
         best
+    }
+
+    /// The nearer one of `best` and a member's next crossing; the first one's of walls in one place, in
+    /// whatever order they come.
+    #[inline(always)]
+    fn nearer<S: Simd>(
+        &self,
+        member: Member,
+        line: &Line<S>,
+        after: F32x8<S>,
+        best: Crossing<S>,
+        lanes: Mask8<S>,
+    ) -> Crossing<S> {
+        let found = self.nearest_of_member(member, line, after, best.t + line.across, lanes);
+        let is_first = (found.part - best.part).shr_signed(31).eq(U32x8::splat(u32::MAX));
+        let is_nearer = found.t.lt(best.t) | (found.t.eq(best.t) & is_first);
+        Crossing::select(lanes & is_nearer, found, best)
     }
 
     /// In which lanes of `open` a member absorbs at `at`, and there the crossing from which on none does.
@@ -276,10 +320,15 @@ impl Csg {
                 self.jump(node, line, before, index, search.open, &mut search);
             }
             let (points, open) = (line.rays.at(search.at), search.open);
-            node.boxes.around(points, open, |item, near| {
-                self.jump(node, line, before, node.wide.len() + item, near, &mut search);
-                (line.rays.at(search.at), search.open)
-            });
+            node.boxes.around(
+                points,
+                open,
+                #[inline(always)]
+                |item, near| {
+                    self.jump(node, line, before, node.wide.len() + item, near, &mut search);
+                    (line.rays.at(search.at), search.open)
+                },
+            );
             // Who has not jumped was asked by all members, and none absorbs.
             search.open = search.open & search.jumped;
             search.jumped = Mask8::no_lanes();
@@ -309,8 +358,7 @@ impl Csg {
         }
         let local = index.checked_sub(node.wide.len());
         let member = local.map_or_else(|| node.wide[index], |local| node.local[local]);
-        let holds = self.member_holds(member, line.rays.at(search.at), lanes);
-        let absorbs = if node.absorbing { lanes & holds } else { lanes.but(holds) };
+        let absorbs = self.absorbs(node, member, line.rays.at(search.at), lanes);
         if !absorbs.any() {
             return;
         }

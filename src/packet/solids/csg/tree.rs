@@ -109,10 +109,6 @@ impl Placed<'_> {
     pub fn is_bare(&self) -> bool {
         self.place == DAffine3::IDENTITY && !self.is_turned
     }
-
-    pub fn bounds(&self) -> Bounds {
-        self.bounds
-    }
 }
 
 /// The smallest box round a solid in its place; a turned box would be larger than what is in it.
