@@ -103,6 +103,7 @@ pub fn one_by_one<S: Simd>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lanes::arrays::Arrays;
     use crate::lanes::{Plain, Task, Vec3x8, dispatch};
 
     /// All that a test does to eight numbers, in either way.
@@ -160,9 +161,11 @@ mod tests {
     }
 
     #[test]
-    fn both_ways_give_the_same_bits() {
+    fn all_ways_give_the_same_bits() {
         for x in numbers() {
-            assert_eq!(dispatch(All(x)), All(x).run::<Plain>(), "{x:?}");
+            let plain = All(x).run::<Plain>();
+            assert_eq!(dispatch(All(x)), plain, "{x:?}");
+            assert_eq!(All(x).run::<Arrays>(), plain, "{x:?}");
         }
     }
 

@@ -2,23 +2,31 @@
 //!
 //! [`F32x8`], [`U32x8`] and [`Mask8`] have eight lanes that know nothing of each other. How they are held is
 //! a matter of the processor, chosen when the program runs ([`dispatch`]): [`Avx2`] where there is one, else
-//! [`Plain`]. Both give the same bits: there is no fused multiplication, no approximate reciprocal, and
+//! [`Plain`]. All give the same bits: there is no fused multiplication, no approximate reciprocal, and
 //! functions that have no instruction are made of those that have ([`math`]).
 //!
 //! What works on lanes is generic over [`Simd`] and marked `#[inline(always)]`, since a function that stands for
 //! itself is compiled for any processor. Where one has to stand for itself (recursion, or too large), its body goes
 //! into [`Simd::run`].
 
+#[cfg(any(test, not(target_arch = "x86_64")))]
+mod arrays;
 #[cfg(target_arch = "x86_64")]
 mod avx2;
 pub mod math;
-mod plain;
+#[cfg(target_arch = "x86_64")]
+mod sse2;
 mod vector;
 
 #[cfg(target_arch = "x86_64")]
 pub use avx2::Avx2;
-pub use plain::Plain;
 pub use vector::Vec3x8;
+
+/// What needs no choice: every processor of a kind has it.
+#[cfg(target_arch = "x86_64")]
+pub type Plain = sse2::Sse2;
+#[cfg(not(target_arch = "x86_64"))]
+pub type Plain = arrays::Arrays;
 
 use std::ops::{Add, AddAssign, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Shl, Shr, Sub};
 use std::sync::OnceLock;

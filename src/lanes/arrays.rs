@@ -1,10 +1,10 @@
-//! Lanes in arrays, for any processor.
+//! Lanes in arrays, for processors that are not x86-64.
 
 use super::Simd;
 
-/// What every processor can do.
+/// Arrays of eight.
 #[derive(Clone, Copy)]
-pub struct Plain;
+pub struct Arrays;
 
 #[derive(Clone, Copy)]
 #[repr(align(32))]
@@ -55,7 +55,7 @@ macro_rules! by {
 type F = Eight<f32>;
 type U = Eight<u32>;
 
-impl Simd for Plain {
+impl Simd for Arrays {
     type F = F;
     type U = U;
     type M = U;
@@ -108,7 +108,7 @@ impl Simd for Plain {
 
     #[inline(always)]
     fn f_select(mask: U, yes: F, no: F) -> F {
-        Plain::u_as_floats(Plain::u_select(mask, Plain::f_bits(yes), Plain::f_bits(no)))
+        Arrays::u_as_floats(Arrays::u_select(mask, Arrays::f_bits(yes), Arrays::f_bits(no)))
     }
 
     #[inline(always)]
