@@ -95,7 +95,7 @@ impl Surface {
 
     /// Whether there is one material all over.
     pub fn is_uniform(&self) -> bool {
-        todo!()
+        matches!(self.pieces, Pieces::One(_))
     }
 
     /// Which material is at `points`, for those who need no colour.
