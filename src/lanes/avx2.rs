@@ -125,8 +125,9 @@ impl Simd for Avx2 {
                 0, -128, 64, -64, 32, -96, 96, -32, 16, -112, 80, -48, 48, -80, 112, -16,
             );
             let lower = _mm_setr_epi8(0, 8, 4, 12, 2, 10, 6, 14, 1, 9, 5, 13, 3, 11, 7, 15);
-            let [swap, upper, lower] = [swap, upper, lower].map(|x| _mm256_broadcastsi128_si256(x));
-            let swapped = _mm256_shuffle_epi8(a, swap);
+            let upper = _mm256_broadcastsi128_si256(upper);
+            let lower = _mm256_broadcastsi128_si256(lower);
+            let swapped = _mm256_shuffle_epi8(a, _mm256_broadcastsi128_si256(swap));
             let half = _mm256_set1_epi8(0x0F);
             let low = _mm256_and_si256(swapped, half);
             let high = _mm256_and_si256(_mm256_srli_epi16::<4>(swapped), half);

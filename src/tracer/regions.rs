@@ -302,7 +302,9 @@ impl Slab {
     }
 }
 
-/// The smallest box round `min` and `max` in f32 with room for rounding.
+/// A box round `min` and `max` in f32, with no more room than rounding needs: rays that leave a face must not be
+/// taken to begin inside.
 pub fn rounded(min: DVec3, max: DVec3) -> [Vec3; 2] {
-    [(min - 1e-3).as_vec3(), (max + 1e-3).as_vec3()]
+    let room = |corner: DVec3| corner.abs() * 4e-6 + 1e-6;
+    [(min - room(min)).as_vec3(), (max + room(max)).as_vec3()]
 }
