@@ -30,6 +30,7 @@ fn made_of(solid: impl Solid + 'static, finish: Finish, color: DVec3) -> Object 
         surface: Surface::Uniform(material(finish, color)),
         seed: 0,
         paint: None,
+        roof: None,
     }
 }
 

@@ -96,7 +96,8 @@ fn moulded(
     let other = bar.clone().placed(translation(DVec3::Y * APART) * rotation_y(90.0));
     let body = bar.and(other).placed(translation(MIDDLE));
     let joinery = Joinery::new([dark, light, frame, inlay], has_inlay);
-    Object::standing(body, Surface::Board(Arc::new(joinery)))
+    let squares = [-HALF, HALF].map(|half| DVec2::new(MIDDLE.x + half, MIDDLE.z + half));
+    Object { roof: Some(squares), ..Object::standing(body, Surface::Board(Arc::new(joinery))) }
 }
 
 /// How much higher one of the bars lies: their tops must not be the same plane, where other renderers

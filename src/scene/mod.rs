@@ -60,6 +60,9 @@ pub struct Object {
     pub seed: u64,
     /// What is painted on its top, where anything is.
     pub paint: Option<Arc<Painting>>,
+    /// A part of its surface that is level and higher than all else of it, as a rectangle in x and z. It changes
+    /// nothing in a picture: who comes from above finds it sooner.
+    pub roof: Option<[DVec2; 2]>,
 }
 
 impl Object {
@@ -70,7 +73,7 @@ impl Object {
 
     /// A body that was carried to its `place`.
     pub fn placed(solid: Arc<dyn Solid>, place: DAffine3, surface: Surface) -> Object {
-        Object { body: Placed::new(solid, place), surface, seed: 0, paint: None }
+        Object { body: Placed::new(solid, place), surface, seed: 0, paint: None, roof: None }
     }
 
     /// The material at a `point` of the surface with the outward `normal`, and the place as its

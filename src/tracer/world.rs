@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::{DMat3, Vec3};
+use glam::{DMat3, Vec2, Vec3};
 
 use super::cells::Grid;
 use super::regions::{Regions, Space, Touched, rounded};
@@ -39,6 +39,7 @@ struct Body {
     /// A box that is known to hold the body, with room for rounding.
     min: Vec3,
     max: Vec3,
+    roof: Option<Roof>,
     is_transparent: bool,
     is_endless: bool,
     /// Whether squares are painted on it.
@@ -46,6 +47,16 @@ struct Body {
     /// The regions that it takes.
     regions: Regions,
 }
+
+/// A level rectangle at the top of a body; see [`Object::roof`].
+struct Roof {
+    min: Vec2,
+    max: Vec2,
+    height: f32,
+}
+
+/// The part of a body that is its roof.
+const ROOF: u32 = u32::MAX - 1;
 
 /// A scene with what is needed to trace packets through it.
 pub struct World<'a> {
@@ -175,7 +186,7 @@ impl<'a> World<'a> {
                         let body = &self.bodies[index];
                         // A hair more, so that what is in one place is compared.
                         let limit = found.t * F32x8::splat(1.0 + 2.0 * f32::EPSILON);
-                        let crossing = body.nearest(rays, F32x8::splat(0.0), limit, lanes);
+                        let crossing = body.first(rays, limit, lanes);
                         let number = U32x8::splat(index as u32);
                         let is_first = crossing.t.eq(found.t) & number.below(found.body);
                         let closer = lanes & (crossing.t.lt(found.t) | is_first);
@@ -462,6 +473,11 @@ impl Body {
             materials,
             min,
             max,
+            roof: object.roof.map(|[min, max]| Roof {
+                min: min.as_vec2(),
+                max: max.as_vec2(),
+                height: bounds.max.y as f32,
+            }),
             is_painted: object.paint.is_some(),
             regions: space.regions(object),
             is_transparent: object.surface.is_transparent(),
@@ -478,6 +494,28 @@ impl Body {
         lanes: Mask8<S>,
     ) -> Crossing<S> {
         self.solid.nearest(&self.to_own.rays(rays), after, before, lanes)
+    }
+
+    /// The first crossing in front of rays.
+    #[inline(always)]
+    fn first<S: Simd>(&self, rays: &Rays<S>, before: F32x8<S>, lanes: Mask8<S>) -> Crossing<S> {
+        let zero = F32x8::splat(0.0);
+        let Some(Roof { min, max, height }) = self.roof else {
+            return self.nearest(rays, zero, before, lanes);
+        };
+        let down = lanes & rays.direction.y.lt(zero);
+        let t = (F32x8::splat(height) - rays.origin.y) / rays.direction.y;
+        let Vec3x8 { x, z, .. } = rays.at(t);
+        let within = down
+            & t.gt(zero)
+            & x.ge(F32x8::splat(min.x))
+            & x.le(F32x8::splat(max.x))
+            & z.ge(F32x8::splat(min.y))
+            & z.le(F32x8::splat(max.y));
+        let others = lanes.but(within);
+        let found =
+            if others.any() { self.nearest(rays, zero, before, others) } else { Crossing::none() };
+        Crossing::select(within & t.lt(before), Crossing { t, part: U32x8::splat(ROOF) }, found)
     }
 
     #[inline(always)]
@@ -498,6 +536,30 @@ impl Body {
 
     #[inline(always)]
     fn normals<S: Simd>(&self, points: Vec3x8<S>, parts: U32x8<S>, lanes: Mask8<S>) -> Normals<S> {
+        if self.roof.is_some() {
+            let upward = Vec3x8::splat(Vec3::Y);
+            let on_roof = lanes & parts.eq(U32x8::splat(ROOF));
+            let others = lanes.but(on_roof);
+            if !others.any() {
+                return Normals::flat(upward);
+            }
+            let parts = others.select_words(parts, U32x8::splat(0));
+            let normals = self.normals_of_solid(points, parts, others);
+            return Normals {
+                flat: Vec3x8::select(on_roof, upward, normals.flat),
+                smooth: Vec3x8::select(on_roof, upward, normals.smooth),
+            };
+        }
+        self.normals_of_solid(points, parts, lanes)
+    }
+
+    #[inline(always)]
+    fn normals_of_solid<S: Simd>(
+        &self,
+        points: Vec3x8<S>,
+        parts: U32x8<S>,
+        lanes: Mask8<S>,
+    ) -> Normals<S> {
         let normals = self.solid.normals(self.to_own.point(points), parts, lanes);
         let Some([x, y, z]) = self.normals else {
             return normals;

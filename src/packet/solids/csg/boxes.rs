@@ -111,6 +111,22 @@ impl Hierarchy {
         Hierarchy { boxes }
     }
 
+    /// Which lines meet the box round all items between `after` and `before`.
+    #[inline(always)]
+    pub fn may_meet<S: Simd>(
+        &self,
+        line: &Line<S>,
+        after: F32x8<S>,
+        before: F32x8<S>,
+        lanes: Mask8<S>,
+    ) -> Mask8<S> {
+        let Some(whole) = self.boxes.first() else {
+            return Mask8::no_lanes();
+        };
+        let (enter, exit) = whole.aabb.clip(line);
+        lanes & enter.max(after).le(exit.min(before))
+    }
+
     /// Visits the items whose boxes the lines of `lanes` meet between `after` and `before`, the nearer half
     /// first. `visit` gets an item and the lanes that meet its box, and says what `before` and
     /// `lanes` are from then on.

@@ -92,6 +92,12 @@ struct Search<S: Simd> {
 }
 
 impl Node {
+    /// The body of a node that is one body less small parts of it.
+    fn cut(&self) -> Option<Member> {
+        let is_cut = !self.absorbing && self.wide.len() == 1 && !self.local.is_empty();
+        is_cut.then(|| self.wide[0])
+    }
+
     pub fn middle(&self) -> Vec3 {
         self.aabb.middle()
     }
@@ -193,6 +199,24 @@ impl Csg {
                 if !lanes.any() {
                     return Crossing::none();
                 }
+                // What is cut somewhere else is whole.
+                let (lanes, whole) = match node.cut() {
+                    None => (lanes, Crossing::none()),
+                    Some(body) => {
+                        let near = node.boxes.may_meet(line, after, before, lanes);
+                        let far = lanes.but(near);
+                        let whole = if far.any() {
+                            self.nearest_of_member(body, line, after, before, far)
+                        } else {
+                            Crossing::none()
+                        };
+                        let whole = Crossing::between(whole.t, whole.part, after, before);
+                        if !near.any() {
+                            return whole;
+                        }
+                        (near, Crossing::select(far, whole, Crossing::none()))
+                    }
+                };
                 let at = enter.max(after);
                 // What is outside of all boxes is absorbed by wide members, or by none.
                 let open = if node.wide.is_empty() { lanes & enter.le(after) } else { lanes };
@@ -200,7 +224,8 @@ impl Csg {
                 let free = lanes.but(absorbed);
                 let nearest = self.nearest_of_any(node, line, at, before, free);
                 let found = Crossing::select(absorbed, last, nearest);
-                Crossing::between(found.t, found.part, after, before)
+                let found = Crossing::between(found.t, found.part, after, before);
+                Crossing::select(lanes, found, whole)
             },
         )
     }
@@ -221,8 +246,16 @@ impl Csg {
         // Rays that begin or end outside of a union cross its surface if they cross any member's.
         let is_any = enter.gt(after) | exit.lt(before);
         let easy = if node.absorbing && !node.beyond { lanes & is_any } else { lanes.but(lanes) };
-        let hard = lanes.but(easy);
+        let mut hard = lanes.but(easy);
         let mut blocked = Mask8::no_lanes();
+        if let Some(Member::Leaf(leaf)) = node.cut() {
+            let far = hard.but(node.boxes.may_meet(line, after, before, hard));
+            if far.any() {
+                let found = self.leaves[leaf].blocks(&line.rays, after, before, far);
+                blocked = far & found;
+                hard = hard.but(far);
+            }
+        }
         let mut rest = easy;
         node.boxes.along(
             line,
