@@ -100,10 +100,10 @@ pub struct Sight<S: Simd> {
 }
 
 impl<'a> World<'a> {
-    pub fn new(scene: &'a Scene, shelf: &Shelf) -> World<'a> {
+    /// `space` is the scene's.
+    pub fn new(scene: &'a Scene, space: Space, shelf: &Shelf) -> World<'a> {
         let mut order: Vec<&Object> = scene.objects.iter().collect();
         order.sort_by_key(|object| object.surface.is_transparent());
-        let space = Space::new(scene.cells);
         let mut world = World {
             scene,
             materials: Materials::default(),
@@ -207,6 +207,7 @@ impl<'a> World<'a> {
             #[inline(always)]
             || {
                 let mut share = lanes.keep(F32x8::splat(1.0));
+                let mut dark = Mask8::no_lanes();
                 self.visit(
                     rays,
                     Search { lanes, before: distance },
@@ -221,6 +222,7 @@ impl<'a> World<'a> {
                                 lanes & body.blocks(rays, F32x8::splat(0.0), distance, lanes);
                             share = blocked.select(F32x8::splat(0.0), share);
                             search.lanes = search.lanes.but(blocked);
+                            dark = dark | blocked;
                             // Whatever else is in the way makes no difference.
                             if let Some(touched) = touched
                                 && blocked.any()
@@ -231,8 +233,7 @@ impl<'a> World<'a> {
                     },
                 );
                 if let Some(touched) = touched {
-                    let open = lanes & share.gt(F32x8::splat(0.0));
-                    touched.add_way(&self.space, rays, distance, open);
+                    touched.add_way(&self.space, rays, distance, lanes.but(dark));
                 }
                 share
             },
