@@ -24,6 +24,10 @@ pub const OFFSET: f32 = 1e-4;
 /// squares or two pictures, where rounding would choose.
 const HAIR: f32 = 1e-4;
 
+/// Surfaces of a body that are no farther apart along a ray, in world units, are one, which rounding meets
+/// twice.
+const ACROSS: f32 = 2e-5;
+
 /// What stands for no body.
 pub const NOTHING: u32 = u32::MAX;
 
@@ -266,7 +270,7 @@ impl<'a> World<'a> {
                     let material = body.surface.material(own, lanes) + U32x8::splat(body.materials);
                     let through = self.materials.transparency(material);
                     share = lanes.select(share * through, share);
-                    after = lanes.select(crossing.t, after);
+                    after = lanes.select(crossing.t + F32x8::splat(ACROSS), after);
                 }
             },
         )
