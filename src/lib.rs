@@ -20,14 +20,17 @@
 //! | [`assets`] | piece sets from TOML (`docs/piece-sets.md`), bitmaps, a font | config, geometry |
 //! | [`geometry`] | rays, spans, bounds, transforms, curves, and one file a shape | – |
 //! | [`scene`] | materials, textures, lights, camera, board and its marks, clock and pieces; builds a [`scene::Scene`] from a frame | geometry, config, assets, notation, timeline |
-//! | [`tracer`] | rays through a whole scene, shading, antialiasing; a picture in memory | geometry, scene |
+//! | `lanes` | eight numbers at once, in AVX2's registers or without them; the same bits in either way | – |
+//! | `packet` | rays in packets of eight: how they meet solids, and what they see on surfaces | geometry, scene, config, lanes |
+//! | [`tracer`] | rays through a whole scene, shading, antialiasing; a picture in memory, and what can stay of it for the next | geometry, scene, lanes, packet |
 //! | [`export`] | a scene as another renderer's text | geometry, scene, assets, config |
 //! | [`caption`] | the strip of words on a picture, and the cards before and behind a game | assets, config, notation |
 //! | [`output`] | pictures, manifests, reports; whole files only | – |
 //! | [`job`] | what to render: game → timeline → scene → tracer → output; inspect; diagram; export; bench | all of the above |
 //!
 //! The binary (`main`, `cli`, `progress`, `signals`) turns arguments into a typed job, shows how far it is,
-//! and sets the exit code; it alone prints. A test holds the imports against this table.
+//! and sets the exit code; it alone prints. A test holds the imports against this table; what modules' own
+//! tests build is none of its business.
 //!
 //! Where this differs from the first design: the camera's turn and lean are part of the frame, as an
 //! angle and a point about the board's middle, so that the timeline needs no geometry; its pose on a

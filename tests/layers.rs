@@ -9,8 +9,10 @@ fn allowed() -> BTreeMap<String, BTreeSet<String>> {
     let rows: Vec<(String, String)> = table
         .lines()
         .filter_map(|line| {
-            let mut cells = line.strip_prefix("//! | [`")?.split('|');
-            let module = cells.next()?.trim().trim_end_matches("`]").to_owned();
+            let mut cells = line.strip_prefix("//! | ")?.split('|');
+            // What is not public cannot be linked.
+            let name = cells.next()?.trim().trim_start_matches('[').trim_end_matches(']');
+            let module = name.strip_prefix('`')?.strip_suffix('`')?.to_owned();
             Some((module, cells.nth(1)?.trim().to_owned()))
         })
         .collect();
@@ -27,16 +29,18 @@ fn allowed() -> BTreeMap<String, BTreeSet<String>> {
         .collect()
 }
 
-/// Module and file of every source file of the library.
+/// Module and code of every source file of the library, without its tests.
 fn sources(folder: &Path, module: Option<&str>, found: &mut Vec<(String, String)>) {
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         let stem = path.file_stem().unwrap().to_string_lossy().into_owned();
-        let module = module.map_or(stem, str::to_owned);
+        let module = module.map_or_else(|| stem.clone(), str::to_owned);
         if path.is_dir() {
             sources(&path, Some(&module), found);
-        } else if path.extension().is_some_and(|ending| ending == "rs") {
-            found.push((module, std::fs::read_to_string(&path).unwrap()));
+        } else if path.extension().is_some_and(|ending| ending == "rs") && stem != "tests" {
+            let text = std::fs::read_to_string(&path).unwrap();
+            let code = text.split("#[cfg(test)]\nmod tests {").next().unwrap();
+            found.push((module, code.to_owned()));
         }
     }
 }

@@ -183,9 +183,9 @@ impl<E: Eye<Sample = Sample, Seen = Glimpse>> Exposure<E> {
         match self.background {
             Some(background) => {
                 let color = color + background * (1.0 - cover);
-                Pixel { color: color.as_vec3(), cover: 1.0 }
+                Pixel { color, cover: 1.0 }
             }
-            None => Pixel { color: color.as_vec3(), cover: cover as f32 },
+            None => Pixel { color, cover },
         }
     }
 }

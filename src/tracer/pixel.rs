@@ -1,17 +1,18 @@
 //! What a pixel shows, and as which bytes.
 
-use glam::Vec3;
 use image::{DynamicImage, RgbImage, RgbaImage};
 
 use super::plane::Plane;
+use crate::scene::Rgb;
 
-/// What a pixel, or a part of it, shows.
+/// What a pixel, or a part of it, shows. The mean of any number of equal ones is the same again: sums of so few
+/// f32 are exact in f64.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pixel {
     /// As it is stored, 0 to 1, times `cover`.
-    pub color: Vec3,
+    pub color: Rgb,
     /// How much of it is not transparent, 0 to 1.
-    pub cover: f32,
+    pub cover: f64,
 }
 
 /// Red, green, blue and alpha, not multiplied.
@@ -20,13 +21,13 @@ pub type Stored = [u8; 4];
 impl Pixel {
     /// As a picture stores it; the colour of what is hardly there is that of what is there.
     pub fn stored(self) -> Stored {
-        let color = if self.cover > 0.0 { self.color / self.cover } else { Vec3::ZERO };
+        let color = if self.cover > 0.0 { self.color / self.cover } else { Rgb::ZERO };
         let [red, green, blue] = color.to_array().map(byte);
         [red, green, blue, byte(self.cover)]
     }
 }
 
-fn byte(share: f32) -> u8 {
+fn byte(share: f64) -> u8 {
     (share.clamp(0.0, 1.0) * 255.0 + 0.5) as u8
 }
 
@@ -38,10 +39,10 @@ impl std::ops::Add for Pixel {
     }
 }
 
-impl std::ops::Div<f32> for Pixel {
+impl std::ops::Div<f64> for Pixel {
     type Output = Pixel;
 
-    fn div(self, by: f32) -> Pixel {
+    fn div(self, by: f64) -> Pixel {
         Pixel { color: self.color / by, cover: self.cover / by }
     }
 }

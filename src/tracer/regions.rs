@@ -68,6 +68,8 @@ pub struct Space {
     side: f32,
     /// Where the lower layer ends.
     top: f32,
+    /// How far what stands in a cell is taken to reach from its middle, by rays on their way.
+    reach: f32,
 }
 
 /// Room for rounding round boxes.
@@ -81,7 +83,14 @@ impl Space {
             corner: [(corner.x - BEFORE * cells.side) as f32, corner.y as f32],
             side: cells.side as f32,
             top: cells.heights[1] as f32,
+            reach: cells.reach as f32,
         }
+    }
+
+    /// The same space, in which rays take what stands in cells to be narrower than it is, by the factor `share`:
+    /// what they touch is not all told.
+    pub fn shrunk(self, share: f32) -> Space {
+        Space { reach: share * self.reach, ..self }
     }
 
     /// The cell in which a body stands; none where it does not keep to one.
@@ -188,11 +197,11 @@ impl<S: Simd> Touched<S> {
             #[inline(always)]
             || {
                 let inverse = rays.direction.recips();
-                let Cells { origin, side, reach, heights: [low, high] } = space.cells;
+                let Cells { origin, side, heights: [low, high], .. } = space.cells;
                 let cells = Slab {
                     origin: [origin.x as f32, origin.y as f32],
                     side: side as f32,
-                    reach: reach as f32,
+                    reach: space.reach,
                     heights: [low as f32, high as f32],
                 };
                 let zero = U32x8::splat(0);

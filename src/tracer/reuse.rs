@@ -28,6 +28,8 @@ pub struct Tracer {
     size: [u32; 2],
     mode: Antialiasing,
     shelf: Shelf,
+    /// 1, but in a test.
+    reach: f32,
     last: Option<Last>,
 }
 
@@ -65,7 +67,14 @@ trait Work<T> {
 impl Tracer {
     /// For pictures of `width` × `height` pixels.
     pub fn new(width: u32, height: u32, mode: Antialiasing) -> Tracer {
-        Tracer { size: [width, height], mode, shelf: Shelf::default(), last: None }
+        Tracer { size: [width, height], mode, shelf: Shelf::default(), reach: 1.0, last: None }
+    }
+
+    /// For a test: the same, with the envelopes that rays look out for made smaller by the factor `share`. What
+    /// changes is then overlooked, and pictures are wrong.
+    #[doc(hidden)]
+    pub fn shrunk(self, share: f32) -> Tracer {
+        Tracer { reach: share, ..self }
     }
 
     /// Traces `scene` on the threads of the current pool. The picture has an alpha channel (not multiplied into
@@ -111,7 +120,8 @@ impl Tracer {
     }
 
     fn with_painter<T>(&self, scene: &Scene, work: impl Work<T>) -> T {
-        let world = World::new(scene, &self.shelf);
+        let space = Space::new(scene.cells).shrunk(self.reach);
+        let world = World::new(scene, space, &self.shelf);
         match &scene.room {
             None => {
                 let eye = Phong::new(world, self.size);

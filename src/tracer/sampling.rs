@@ -61,7 +61,7 @@ impl<E: Eye<Sample = Place, Seen = Seen>> Sampling<E> {
         let counts = self.eye.see(&places, &mut seen, regions.as_mut());
         made.extend(seen.chunks_exact(parts).map(|seen| {
             let sum = seen.iter().fold(Pixel::default(), |sum, seen| sum + self.pixel(seen));
-            (sum / parts as f32).stored()
+            (sum / f64::from(side * side)).stored()
         }));
         if let (Some(touched), Some(regions)) = (touched, regions) {
             touched.extend(regions.chunks_exact(parts).map(union));
@@ -74,7 +74,7 @@ impl<E: Eye<Sample = Place, Seen = Seen>> Sampling<E> {
             return Pixel::default();
         }
         // What is too bright is as bright as can be, also beside what is not.
-        Pixel { color: seen.color.min(Vec3::ONE), cover: 1.0 }
+        Pixel { color: seen.color.min(Vec3::ONE).as_dvec3(), cover: 1.0 }
     }
 }
 

@@ -24,6 +24,10 @@ pub const OFFSET: f32 = 1e-4;
 /// squares or two pictures, where rounding would choose.
 const HAIR: f32 = 1e-4;
 
+/// Surfaces of a body that are no farther apart along a ray, in world units, are one, which rounding meets
+/// twice.
+const ACROSS: f32 = 2e-5;
+
 /// What stands for no body.
 pub const NOTHING: u32 = u32::MAX;
 
@@ -111,10 +115,10 @@ pub struct Sight<S: Simd> {
 }
 
 impl<'a> World<'a> {
-    pub fn new(scene: &'a Scene, shelf: &Shelf) -> World<'a> {
+    /// `space` is the scene's.
+    pub fn new(scene: &'a Scene, space: Space, shelf: &Shelf) -> World<'a> {
         let mut order: Vec<&Object> = scene.objects.iter().collect();
         order.sort_by_key(|object| object.surface.is_transparent());
-        let space = Space::new(scene.cells);
         let mut world = World {
             scene,
             materials: Materials::default(),
@@ -218,6 +222,7 @@ impl<'a> World<'a> {
             #[inline(always)]
             || {
                 let mut share = lanes.keep(F32x8::splat(1.0));
+                let mut dark = Mask8::no_lanes();
                 self.visit(
                     rays,
                     Search { lanes, before: distance },
@@ -232,6 +237,7 @@ impl<'a> World<'a> {
                                 lanes & body.blocks(rays, F32x8::splat(0.0), distance, lanes);
                             share = blocked.select(F32x8::splat(0.0), share);
                             search.lanes = search.lanes.but(blocked);
+                            dark = dark | blocked;
                             // Whatever else is in the way makes no difference.
                             if let Some(touched) = touched
                                 && blocked.any()
@@ -242,8 +248,7 @@ impl<'a> World<'a> {
                     },
                 );
                 if let Some(touched) = touched {
-                    let open = lanes & share.gt(F32x8::splat(0.0));
-                    touched.add_way(&self.space, rays, distance, open);
+                    touched.add_way(&self.space, rays, distance, lanes.but(dark));
                 }
                 share
             },
@@ -276,7 +281,7 @@ impl<'a> World<'a> {
                     let material = body.surface.material(own, lanes) + U32x8::splat(body.materials);
                     let through = self.materials.transparency(material);
                     share = lanes.select(share * through, share);
-                    after = lanes.select(crossing.t, after);
+                    after = lanes.select(crossing.t + F32x8::splat(ACROSS), after);
                 }
             },
         )
