@@ -59,15 +59,16 @@ pub fn bench(job: &BenchJob) -> Result<Vec<Measurement>, JobError> {
             set: SetName::Thesis,
             threads: job.threads,
         };
+        let pool = settings.pool()?;
         let mut studio = Studio::new(&settings, Reach::default())?;
         let mut run = || {
             let begin = Instant::now();
-            studio.trace(&frame);
+            pool.install(|| studio.trace_whole(&frame));
             (begin.elapsed().as_secs_f64(), studio.rays())
         };
         let (first, rays) = run();
         let seconds = (1..job.runs).map(|_| run().0).fold(first, f64::min);
-        let threads = studio.threads();
+        let threads = pool.current_num_threads();
         Ok(Measurement {
             setting,
             seconds,

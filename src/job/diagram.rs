@@ -71,7 +71,8 @@ pub fn diagram(
     if !to_stdout {
         prepare_file(&job.output)?;
     }
-    let picture = studio.picture(&shot.frame, shot.content.as_ref());
+    let pool = settings.pool()?;
+    let picture = pool.install(|| studio.single(&shot.frame, shot.content.as_ref()));
     if to_stdout {
         encode_png(&picture, &shot.texts, job.dpi, stdout).map_err(JobError::Write)?;
     } else {

@@ -6,6 +6,7 @@
 mod batch;
 mod bench;
 mod captions;
+mod desk;
 mod diagram;
 mod export;
 mod inspect;

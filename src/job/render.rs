@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::batch::{Batch, Entry, Part, folder_names, game_folder, read_batch};
 use super::captions::GameCaptions;
+use super::desk::{Desk, Sheet};
 use super::report::{FrameRow, Manifest, ReportLine, Status, VariationLine, tags, texts};
 use super::studio::{PictureSettings, Studio};
 use super::{JobError, Progress, Showing};
@@ -13,7 +14,6 @@ use crate::game::{Game, Moment, Selection, shortened};
 use crate::notation::Color;
 use crate::output::{
     frame_name, manifest_name, prepare_folder, remove_frames, write_json, write_json_lines,
-    write_png,
 };
 use crate::timeline::{Bodies, Script, Timeline};
 use crate::tracer::RayCounts;
@@ -68,6 +68,7 @@ pub fn render(job: &RenderJob, progress: &dyn Progress) -> Result<Summary, JobEr
     for (input, name) in job.inputs.iter().zip(folder_names(&job.inputs)) {
         batches.push(read_batch(job, &script, input, job.out.join(name), progress)?);
     }
+    let pool = job.picture.pool()?;
     let studio = Studio::new(&job.picture, job.showing.reach(config))?;
     let script = job.showing.script(config, studio.bodies().clone());
     let mut run = Run { job, script, progress, studio, summary: Summary::default() };
@@ -78,7 +79,7 @@ pub fn render(job: &RenderJob, progress: &dyn Progress) -> Result<Summary, JobEr
     progress.begin(batches.iter().flat_map(|batch| &batch.entries).map(Entry::frames).sum());
     for batch in &batches {
         if !run.summary.cancelled {
-            run.batch(batch)?;
+            pool.install(|| run.batch(batch))?;
         }
     }
     run.summary.rays = run.studio.rays();
@@ -185,19 +186,24 @@ impl Run<'_> {
             })?;
         let captions = GameCaptions::new(game, self.job.picture.config.captions);
         let mut rows = Vec::new();
-        for index in part.frames.clone() {
-            if self.progress.is_cancelled() {
-                self.summary.cancelled = true;
-                break;
+        let desk = Desk::new(self.progress);
+        rayon::in_place_scope(|scope| {
+            for index in part.frames.clone() {
+                self.summary.cancelled = self.progress.is_cancelled();
+                if self.summary.cancelled || desk.has_failed() {
+                    break;
+                }
+                let frame = timeline.frame(index);
+                let picture = self.studio.picture(&frame, captions.of(&frame).as_ref());
+                let name = frame_name(index);
+                let (path, texts) = (folder.join(&name), texts(game, &frame));
+                desk.take(Sheet { path, picture, texts }, scope);
+                rows.push(FrameRow::new(name, game, &frame));
             }
-            let frame = timeline.frame(index);
-            let picture = self.studio.picture(&frame, captions.of(&frame).as_ref());
-            let name = frame_name(index);
-            write_png(&folder.join(&name), &picture, &texts(game, &frame), None)?;
-            rows.push(FrameRow::new(name, game, &frame));
-            self.progress.frame_done();
-            self.summary.frames += 1;
-        }
+        });
+        let (written, outcome) = desk.close();
+        self.summary.frames += written;
+        outcome?;
         let manifest = Manifest {
             file: &batch.file,
             game: game.number,

@@ -1,6 +1,7 @@
 //! From a frame to a picture: the stage, the tracer and its threads.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use image::DynamicImage;
 use serde::Serialize;
@@ -12,7 +13,7 @@ use crate::config::{Config, Render, Sampling, ShowClock};
 use crate::game::printable;
 use crate::scene::{self, Reach, Stage};
 use crate::timeline::{Bodies, Frame};
-use crate::tracer::{self, Antialiasing, RayCounts};
+use crate::tracer::{self, Antialiasing, RayCounts, Tracer};
 
 /// What all pictures of a job have in common.
 #[derive(Clone, Debug)]
@@ -30,6 +31,13 @@ impl PictureSettings {
     pub(super) fn inputs(&self) -> Vec<PathBuf> {
         let bitmaps = self.config.bitmaps().into_iter().cloned();
         self.config_file.iter().cloned().chain(bitmaps).chain(self.set.files()).collect()
+    }
+
+    /// Starts the threads on which pictures are made.
+    pub(super) fn pool(&self) -> Result<rayon::ThreadPool, JobError> {
+        let threads = self.threads.unwrap_or(0);
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.map_err(|error| JobError::Threads { threads, error })
     }
 }
 
@@ -70,56 +78,62 @@ fn antialiasing(render: &Render) -> Antialiasing {
 struct Shot {
     /// What of the frame can be seen.
     shown: Frame,
-    scene: DynamicImage,
+    scene: Arc<DynamicImage>,
     /// What was said on it, and the whole picture.
-    said: Option<(Content, DynamicImage)>,
+    said: Option<(Content, Arc<DynamicImage>)>,
 }
 
-/// Makes pictures of frames.
+/// Makes pictures of frames, on the threads of the pool that it is asked in.
 pub(super) struct Studio<'a> {
     settings: &'a PictureSettings,
     /// As high as the scene is.
     stage: Stage,
     caption: Caption,
+    tracer: Tracer,
     last: Option<Shot>,
-    threads: rayon::ThreadPool,
     rays: RayCounts,
 }
 
 impl<'a> Studio<'a> {
     pub fn new(settings: &'a PictureSettings, reach: Reach) -> Result<Studio<'a>, JobError> {
-        let threads = settings.threads.unwrap_or(0);
         let caption = Caption::new(&settings.config)?;
         let mut of_scene = settings.clone();
         of_scene.config.height = caption.scene_height();
+        let Config { width, height, render, .. } = &of_scene.config;
         Ok(Studio {
             settings,
             stage: stage(&of_scene, reach)?,
             caption,
+            tracer: Tracer::new(*width, *height, antialiasing(render)),
             last: None,
-            threads: rayon::ThreadPoolBuilder::new()
-                .num_threads(threads)
-                .build()
-                .map_err(|error| JobError::Threads { threads, error })?,
             rays: RayCounts::default(),
         })
     }
 
-    /// The picture of a frame, with `content` in words if there is any. A pause is one scene many
-    /// times over: it is traced once, and the same words are written on it once.
-    pub fn picture(&mut self, frame: &Frame, content: Option<&Content>) -> DynamicImage {
+    /// The picture of a frame of a film, with `content` in words if there is any. What stood still since the
+    /// frame before is not traced again. A pause is one picture many times over: it is made once.
+    pub fn picture(&mut self, frame: &Frame, content: Option<&Content>) -> Arc<DynamicImage> {
         let shown = self.shown_of(frame);
         let (scene, said) = match self.last.take() {
             Some(last) if shown.shows_the_same(&last.shown) => (last.scene, last.said),
-            _ => (self.trace(&shown), None),
+            _ => (Arc::new(self.trace(&shown)), None),
         };
         let said = content.map(|content| match said {
             Some((last, picture)) if last == *content => (last, picture),
-            _ => (content.clone(), self.caption.draw(&scene, content)),
+            _ => (content.clone(), Arc::new(self.caption.draw(&scene, content))),
         });
         let picture = said.as_ref().map_or(&scene, |(_, picture)| picture).clone();
         self.last = Some(Shot { shown, scene, said });
         picture
+    }
+
+    /// The same picture, if it is the only one.
+    pub fn single(&mut self, frame: &Frame, content: Option<&Content>) -> DynamicImage {
+        let scene = self.trace_whole(&self.shown_of(frame));
+        match content {
+            Some(content) => self.caption.draw(&scene, content),
+            None => scene,
+        }
     }
 
     /// What of a frame can be seen in the scene.
@@ -131,10 +145,16 @@ impl<'a> Studio<'a> {
 
     /// The scene of a frame, without words.
     pub fn trace(&mut self, frame: &Frame) -> DynamicImage {
-        let scene = self.stage.scene(frame);
-        let (width, height) = (self.settings.config.width, self.caption.scene_height());
+        let (picture, rays) = self.tracer.picture(&self.stage.scene(frame));
+        self.rays = self.rays + rays;
+        picture
+    }
+
+    /// The same, whatever was traced before.
+    pub fn trace_whole(&mut self, frame: &Frame) -> DynamicImage {
         let mode = antialiasing(&self.settings.config.render);
-        let (picture, rays) = self.threads.install(|| tracer::render(&scene, width, height, mode));
+        let (width, height) = (self.settings.config.width, self.caption.scene_height());
+        let (picture, rays) = tracer::render(&self.stage.scene(frame), width, height, mode);
         self.rays = self.rays + rays;
         picture
     }
@@ -142,11 +162,6 @@ impl<'a> Studio<'a> {
     /// The room that pieces and board take.
     pub fn bodies(&self) -> &Bodies {
         self.stage.bodies()
-    }
-
-    /// How many threads trace.
-    pub fn threads(&self) -> usize {
-        self.threads.current_num_threads()
     }
 
     /// All rays so far.

@@ -16,7 +16,7 @@ use super::{Mapping, Material, Object, Surface, Texture};
 use crate::assets::Bitmap;
 use crate::config::{self, Coat, Filter, Finish};
 use crate::geometry::transform::{rotation_x, rotation_y, translation};
-use crate::geometry::{Bounds, Cuboid};
+use crate::geometry::{Bounds, Cuboid, Solid};
 use crate::timeline::Dials;
 use reading::{Reading, readings};
 
@@ -26,6 +26,12 @@ const CASE: Cuboid = Cuboid { min: DVec3::new(-1.5, -DEPTH, -6.0), max: DVec3::n
 /// What the face leaves free at its edges, and how far it stands out, in world units.
 const RIM: f64 = 0.45;
 const THICKNESS: f64 = 0.02;
+
+/// The face: a plate on the case.
+const PLATE: Cuboid = Cuboid {
+    min: DVec3::new(CASE.max.x, CASE.min.y + RIM, CASE.min.z + RIM),
+    max: DVec3::new(CASE.max.x + THICKNESS, CASE.max.y - RIM, CASE.max.z - RIM),
+};
 
 /// How far the clock is from the board's middle where it is nearest to it, in world units: so far, or as
 /// far as this behind what stands beside the board.
@@ -76,6 +82,8 @@ pub fn corners(place: &DAffine3) -> [DVec3; 8] {
 pub struct Clock {
     settings: config::Clock,
     place: DAffine3,
+    /// [`CASE`], [`PLATE`], [`PIVOT`] and [`ROCKER`]: the same ones in all pictures, so that they are known again.
+    solids: [Arc<dyn Solid>; 4],
     case: Surface,
     brass: Surface,
     filter: Filter,
@@ -99,6 +107,7 @@ impl Clock {
             is_linear: materials.is_linear(),
             settings,
             place,
+            solids: [CASE, PLATE, PIVOT, ROCKER].map(|solid| Arc::new(solid) as Arc<dyn Solid>),
             painted: Mutex::default(),
         })
     }
@@ -118,31 +127,30 @@ impl Clock {
         };
         // The end on the left is that of −z.
         let rocker = translation(DVec3::Y * (CASE.max.y + ROCKER_HEIGHT)) * rotation_x(tilt);
-        let plate = Cuboid {
-            min: DVec3::new(CASE.max.x, CASE.min.y + RIM, CASE.min.z + RIM),
-            max: DVec3::new(CASE.max.x + THICKNESS, CASE.max.y - RIM, CASE.max.z - RIM),
-        };
         let shown = [left, right];
         let mut painted = self.painted.lock().unwrap_or_else(PoisonError::into_inner);
         let face = match painted.take() {
             Some((last, face)) if last == shown => face,
-            _ => self.face(&plate, &shown),
+            _ => self.face(&shown),
         };
         *painted = Some((shown, face.clone()));
-        let body = |solid: Cuboid, place: DAffine3, surface: Surface| {
-            Object::placed(Arc::new(solid), self.place * place, surface)
+        let still = DAffine3::IDENTITY;
+        let parts = [
+            (still, self.case.clone()),
+            (still, face),
+            (still, self.case.clone()),
+            (rocker, self.brass.clone()),
+        ];
+        let bodies = self.solids.iter().zip(parts);
+        let place = |(solid, (place, surface)): (&Arc<dyn Solid>, _)| {
+            Object::placed(solid.clone(), self.place * place, surface)
         };
-        vec![
-            body(CASE, DAffine3::IDENTITY, self.case.clone()),
-            body(plate, DAffine3::IDENTITY, face),
-            body(PIVOT, DAffine3::IDENTITY, self.case.clone()),
-            body(ROCKER, rocker, self.brass.clone()),
-        ]
+        bodies.map(place).collect()
     }
 
-    /// The painted face, for `plate`.
-    fn face(&self, plate: &Cuboid, readings: &[Reading; 2]) -> Surface {
-        let size = plate.max - plate.min;
+    /// The painted face.
+    fn face(&self, readings: &[Reading; 2]) -> Surface {
+        let size = PLATE.max - PLATE.min;
         let finish = Finish {
             ambient: 0.45,
             diffuse: 0.55,
@@ -155,7 +163,7 @@ impl Clock {
             bitmap: Arc::new(Bitmap::new(face::paint(size.z, size.y, readings), self.filter)),
             mapping: Mapping {
                 kind: config::Mapping::Planar,
-                origin: plate.min,
+                origin: PLATE.min,
                 u: DVec3::Z * size.z,
                 v: DVec3::Y * size.y,
             },
@@ -171,7 +179,6 @@ impl Clock {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Solid;
 
     /// Directions that cameras look along, on both sides and from above.
     const FORWARDS: [DVec3; 6] = [
