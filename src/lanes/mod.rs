@@ -228,6 +228,19 @@ impl<S: Simd> F32x8<S> {
         F32x8(S::f_load(x))
     }
 
+    /// The first eight of `x`; where there are fewer, the last one again. There must be one.
+    #[inline(always)]
+    pub fn load_some(x: &[f32]) -> F32x8<S> {
+        match x.first_chunk() {
+            Some(eight) => F32x8::load(eight),
+            None => {
+                let mut eight = [x[x.len() - 1]; 8];
+                eight[..x.len()].copy_from_slice(x);
+                F32x8::load(&eight)
+            }
+        }
+    }
+
     #[inline(always)]
     pub fn store(self) -> [f32; 8] {
         S::f_store(self.0)
@@ -404,6 +417,12 @@ impl<S: Simd> Mask8<S> {
     #[inline(always)]
     pub fn splat(answer: bool) -> Mask8<S> {
         Mask8::from_bits(if answer { u8::MAX } else { 0 })
+    }
+
+    /// The first few lanes.
+    #[inline(always)]
+    pub fn first(count: usize) -> Mask8<S> {
+        Mask8::from_bits((0xFF_u32 >> (LANES - count.min(LANES))) as u8)
     }
 
     /// Lane 0 is the lowest bit.

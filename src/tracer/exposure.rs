@@ -130,7 +130,7 @@ impl Sizes {
     }
 }
 
-impl<E: Eye<Sample = Sample, Seen = Glimpse>> Exposure<E> {
+impl<E: Eye<[Sample], Glimpse>> Exposure<E> {
     pub fn new(eye: E, scene: &Scene, sizes: Sizes) -> Exposure<E> {
         let behind = scene.background.map(|color| shown(linear_light(color)));
         Exposure { eye, sizes, background: scene.background, behind }
@@ -190,7 +190,7 @@ impl<E: Eye<Sample = Sample, Seen = Glimpse>> Exposure<E> {
     }
 }
 
-impl<E: Eye<Sample = Sample, Seen = Glimpse>> Painter for Exposure<E> {
+impl<E: Eye<[Sample], Glimpse>> Painter for Exposure<E> {
     type Look = Sum;
 
     fn nothing(&self) -> (Sum, Stored) {

@@ -7,6 +7,7 @@ use super::eye::Eye;
 use super::footprint::{Footprint, Footprints};
 use super::optics::{facing, mirrored, refracted};
 use super::pinhole::Pinhole;
+use super::plane::Spot;
 use super::regions::{Regions, Touched};
 use super::world::{OFFSET, World};
 use crate::lanes::{F32x8, LANES, Mask8, Simd, Task, Vec3x8, dispatch, math};
@@ -24,22 +25,50 @@ pub struct Phong<'a> {
     spread: f32,
 }
 
-/// A place of the picture, in pixels from its upper left corner; its ray stands for one of `side` across a
+/// Places of the picture, in pixels from its upper left corner; their rays stand for one of `side` across a
 /// pixel.
-#[derive(Clone, Copy, Debug)]
-pub struct Place {
-    pub x: f32,
-    pub y: f32,
+#[derive(Clone, Debug)]
+pub struct Places {
+    pub x: Vec<f32>,
+    pub y: Vec<f32>,
     pub side: f32,
 }
 
 /// What a single ray from the camera brings back.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Seen {
+pub struct Shade {
     pub color: Vec3,
     /// Whether it met anything.
     pub hits: bool,
+}
+
+/// The same, with what it is made of.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Seen {
+    pub shade: Shade,
     pub footprint: Footprint,
+}
+
+impl Places {
+    /// The middles of `side` × `side` equal parts of each pixel.
+    pub fn new(spots: &[Spot], side: u32) -> Places {
+        let count = spots.len() * (side * side) as usize;
+        let mut places = Places {
+            x: Vec::with_capacity(count),
+            y: Vec::with_capacity(count),
+            side: side as f32,
+        };
+        let middle = |index: u32| (index as f32 + 0.5) / side as f32;
+        for [x, y] in spots {
+            for row in 0..side {
+                for column in 0..side {
+                    places.x.push(*x as f32 + middle(column));
+                    places.y.push(*y as f32 + middle(row));
+                }
+            }
+        }
+        places
+    }
 }
 
 /// Rays on their way.
@@ -77,18 +106,18 @@ impl<'a> Phong<'a> {
         Phong { world, pinhole, spread }
     }
 
-    /// What comes back through up to eight places.
+    /// What comes back through up to eight places; the lanes behind them have no meaning.
     #[inline(always)]
     fn packet<S: Simd>(
         &self,
-        places: &[Place],
-        seen: &mut Vec<Seen>,
+        places: &Places,
+        start: usize,
         touched: Option<&mut Vec<Regions>>,
-    ) -> RayCounts {
-        let place: [Place; 8] = std::array::from_fn(|lane| places[lane.min(places.len() - 1)]);
-        let x = F32x8::<S>::load(&place.map(|place| place.x));
-        let rays = self.pinhole.rays(x, F32x8::load(&place.map(|place| place.y)));
-        let lanes = Mask8::from_bits((0xFF_u32 >> (LANES - places.len())) as u8);
+    ) -> (Vec3x8<S>, Walk<S>) {
+        let count = (places.x.len() - start).min(LANES);
+        let x = F32x8::load_some(&places.x[start..]);
+        let rays = self.pinhole.rays(x, F32x8::load_some(&places.y[start..]));
+        let lanes = Mask8::first(count);
         let (zero, one) = (F32x8::splat(0.0), F32x8::splat(1.0));
         let flight = Flight {
             rays,
@@ -103,27 +132,19 @@ impl<'a> Phong<'a> {
                 one
             },
         };
-        let spread = F32x8::splat(self.spread) / F32x8::load(&place.map(|place| place.side));
         let mut walk = Walk {
             counts: RayCounts::default(),
             hits: None,
             footprints: Footprints::new(),
-            spread,
+            spread: F32x8::splat(self.spread / places.side),
             touched: touched.is_some().then(Touched::new),
         };
-        walk.counts.primary = places.len() as u64;
-        let color = self.radiance(&flight, &mut walk).store();
-        let footprints = walk.footprints.store();
-        let hits = walk.hits.map_or(0, Mask8::bits);
-        if let (Some(touched), Some(found)) = (touched, walk.touched) {
-            touched.extend_from_slice(&found.store()[..places.len()]);
+        walk.counts.primary = count as u64;
+        let color = self.radiance(&flight, &mut walk);
+        if let (Some(touched), Some(found)) = (touched, &walk.touched) {
+            touched.extend_from_slice(&found.store()[..count]);
         }
-        seen.extend((0..places.len()).map(|lane| Seen {
-            color: color[lane],
-            hits: hits >> lane & 1 == 1,
-            footprint: footprints[lane],
-        }));
-        walk.counts
+        (color, walk)
     }
 
     #[inline(never)]
@@ -264,35 +285,84 @@ impl<'a> Phong<'a> {
     }
 }
 
-impl Eye for Phong<'_> {
-    type Sample = Place;
-    type Seen = Seen;
+impl<S: Simd> Walk<S> {
+    /// What a packet of `count` rays has seen, with its colours.
+    #[inline(always)]
+    fn shades(&self, color: Vec3x8<S>) -> [Shade; 8] {
+        let hits = self.hits.map_or(0, Mask8::bits);
+        let (x, y, z) = (color.x.store(), color.y.store(), color.z.store());
+        let mut shades = [Shade::default(); 8];
+        for (lane, shade) in shades.iter_mut().enumerate() {
+            let color = Vec3::new(x[lane], y[lane], z[lane]);
+            *shade = Shade { color, hits: hits >> lane & 1 == 1 };
+        }
+        shades
+    }
+}
 
+/// A look through places, in either form.
+struct Look<'a, 'b, T> {
+    eye: &'a Phong<'b>,
+    places: &'a Places,
+    seen: &'a mut Vec<T>,
+    touched: Option<&'a mut Vec<Regions>>,
+}
+
+impl Task for Look<'_, '_, Shade> {
+    type Output = RayCounts;
+
+    #[inline(always)]
+    fn run<S: Simd>(self) -> RayCounts {
+        let Look { eye, places, seen, mut touched } = self;
+        let mut counts = RayCounts::default();
+        for start in (0..places.x.len()).step_by(LANES) {
+            let (color, walk) = eye.packet::<S>(places, start, touched.as_deref_mut());
+            let count = (places.x.len() - start).min(LANES);
+            seen.extend_from_slice(&walk.shades(color)[..count]);
+            counts = counts + walk.counts;
+        }
+        counts
+    }
+}
+
+impl Task for Look<'_, '_, Seen> {
+    type Output = RayCounts;
+
+    #[inline(always)]
+    fn run<S: Simd>(self) -> RayCounts {
+        let Look { eye, places, seen, mut touched } = self;
+        let mut counts = RayCounts::default();
+        for start in (0..places.x.len()).step_by(LANES) {
+            let (color, walk) = eye.packet::<S>(places, start, touched.as_deref_mut());
+            let count = (places.x.len() - start).min(LANES);
+            let (shades, footprints) = (walk.shades(color), walk.footprints.store());
+            for (shade, footprint) in shades.into_iter().zip(footprints).take(count) {
+                seen.push(Seen { shade, footprint });
+            }
+            counts = counts + walk.counts;
+        }
+        counts
+    }
+}
+
+impl Eye<Places, Shade> for Phong<'_> {
     fn see(
         &self,
-        samples: &[Place],
+        places: &Places,
+        seen: &mut Vec<Shade>,
+        touched: Option<&mut Vec<Regions>>,
+    ) -> RayCounts {
+        dispatch(Look { eye: self, places, seen, touched })
+    }
+}
+
+impl Eye<Places, Seen> for Phong<'_> {
+    fn see(
+        &self,
+        places: &Places,
         seen: &mut Vec<Seen>,
         touched: Option<&mut Vec<Regions>>,
     ) -> RayCounts {
-        struct See<'a, 'b>(
-            &'a Phong<'b>,
-            &'a [Place],
-            &'a mut Vec<Seen>,
-            Option<&'a mut Vec<Regions>>,
-        );
-        impl Task for See<'_, '_> {
-            type Output = RayCounts;
-
-            #[inline(always)]
-            fn run<S: Simd>(self) -> RayCounts {
-                let See(eye, samples, seen, mut touched) = self;
-                let mut counts = RayCounts::default();
-                for packet in samples.chunks(LANES) {
-                    counts = counts + eye.packet::<S>(packet, seen, touched.as_deref_mut());
-                }
-                counts
-            }
-        }
-        dispatch(See(self, samples, seen, touched))
+        dispatch(Look { eye: self, places, seen, touched })
     }
 }

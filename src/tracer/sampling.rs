@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::eye::Eye;
 use super::footprint::Footprint;
-use super::phong::{Place, Seen};
+use super::phong::{Places, Seen, Shade};
 use super::pixel::{Pixel, Stored};
 use super::plane::{Plane, Spot};
 use super::regions::Regions;
@@ -22,12 +22,11 @@ pub struct Sampling<E> {
     nothing: Seen,
 }
 
-impl<E: Eye<Sample = Place, Seen = Seen>> Sampling<E> {
+impl<E: Eye<Places, Seen> + Eye<Places, Shade>> Sampling<E> {
     pub fn new(eye: E, scene: &Scene, mode: Antialiasing) -> Sampling<E> {
         let background = scene.background.map(|color| color.as_vec3());
         let nothing = Seen {
-            color: background.unwrap_or(Vec3::ZERO),
-            hits: false,
+            shade: Shade { color: background.unwrap_or(Vec3::ZERO), hits: false },
             footprint: Footprint::of_nothing(),
         };
         Sampling { eye, mode, is_transparent: background.is_none(), nothing }
@@ -50,15 +49,9 @@ impl<E: Eye<Sample = Place, Seen = Seen>> Sampling<E> {
     ) -> RayCounts {
         let side = self.side();
         let parts = (side * side) as usize;
-        let middle = |index: u32| (index as f32 + 0.5) / side as f32;
-        let within = |part: u32| [middle(part % side), middle(part / side)];
-        let places: Vec<Place> = spots
-            .iter()
-            .flat_map(|spot| (0..side * side).map(move |part| place(*spot, within(part), side)))
-            .collect();
-        let mut seen = Vec::with_capacity(places.len());
+        let mut seen: Vec<Shade> = Vec::with_capacity(spots.len() * parts);
         let mut regions = touched.is_some().then(Vec::new);
-        let counts = self.eye.see(&places, &mut seen, regions.as_mut());
+        let counts = self.eye.see(&Places::new(spots, side), &mut seen, regions.as_mut());
         made.extend(seen.chunks_exact(parts).map(|seen| {
             let sum = seen.iter().fold(Pixel::default(), |sum, seen| sum + self.pixel(seen));
             (sum / f64::from(side * side)).stored()
@@ -69,7 +62,7 @@ impl<E: Eye<Sample = Place, Seen = Seen>> Sampling<E> {
         counts
     }
 
-    fn pixel(&self, seen: &Seen) -> Pixel {
+    fn pixel(&self, seen: &Shade) -> Pixel {
         if self.is_transparent && !seen.hits {
             return Pixel::default();
         }
@@ -78,11 +71,11 @@ impl<E: Eye<Sample = Place, Seen = Seen>> Sampling<E> {
     }
 }
 
-impl<E: Eye<Sample = Place, Seen = Seen>> Painter for Sampling<E> {
+impl<E: Eye<Places, Seen> + Eye<Places, Shade>> Painter for Sampling<E> {
     type Look = Seen;
 
     fn nothing(&self) -> (Seen, Stored) {
-        (self.nothing, self.pixel(&self.nothing).stored())
+        (self.nothing, self.pixel(&self.nothing.shade).stored())
     }
 
     fn looks_first(&self) -> bool {
@@ -95,8 +88,7 @@ impl<E: Eye<Sample = Place, Seen = Seen>> Painter for Sampling<E> {
         made: &mut Vec<Seen>,
         touched: Option<&mut Vec<Regions>>,
     ) -> RayCounts {
-        let places: Vec<Place> = spots.iter().map(|spot| place(*spot, [0.5; 2], 1)).collect();
-        self.eye.see(&places, made, touched)
+        self.eye.see(&Places::new(spots, 1), made, touched)
     }
 
     fn finish(
@@ -121,7 +113,7 @@ impl<E: Eye<Sample = Place, Seen = Seen>> Painter for Sampling<E> {
         let counts = self.means(&some, &mut means, regions.as_mut());
         let (mut means, mut regions) = (means.into_iter(), regions.into_iter().flatten());
         let each = || spots.iter().zip(&more);
-        let own = |spot: &Spot| self.pixel(&looks.at(*spot)).stored();
+        let own = |spot: &Spot| self.pixel(&looks.at(*spot).shade).stored();
         made.extend(each().map(|(spot, more)| {
             let mean = if *more { means.next() } else { None };
             mean.unwrap_or_else(|| own(spot))
@@ -144,9 +136,4 @@ pub fn union(regions: &[Regions]) -> Regions {
         all.add(regions);
         all
     })
-}
-
-/// The place at a share of a pixel's width and height from its upper left corner.
-fn place([x, y]: Spot, [dx, dy]: [f32; 2], side: u32) -> Place {
-    Place { x: x as f32 + dx, y: y as f32 + dy, side: side as f32 }
 }

@@ -494,10 +494,7 @@ impl<'a> Studio<'a> {
     }
 }
 
-impl Eye for Studio<'_> {
-    type Sample = Sample;
-    type Seen = Glimpse;
-
+impl Eye<[Sample], Glimpse> for Studio<'_> {
     fn see(
         &self,
         samples: &[Sample],

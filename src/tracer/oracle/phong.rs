@@ -9,7 +9,7 @@ use crate::scene::{Rgb, Scene};
 use crate::tracer::RayCounts;
 use crate::tracer::eye::Eye;
 use crate::tracer::footprint::Footprint;
-use crate::tracer::phong::{Place, Seen};
+use crate::tracer::phong::{Places, Seen, Shade};
 use crate::tracer::regions::Regions;
 
 /// How often a ray may go straight through a surface before each further time counts as refraction.
@@ -62,7 +62,8 @@ impl<'a> Phong<'a> {
         let color = self.radiance(&flight, &mut walk);
         let [normal, color_seen, light] = walk.sums.map(|sum| sum.as_vec3());
         let footprint = Footprint::new(&walk.bodies, normal, color_seen, light);
-        Seen { color: color.as_vec3(), hits: walk.bodies[0].is_some(), footprint }
+        let shade = Shade { color: color.as_vec3(), hits: walk.bodies[0].is_some() };
+        Seen { shade, footprint }
     }
 
     fn radiance(&self, flight: &Flight, walk: &mut Walk) -> Rgb {
@@ -156,27 +157,37 @@ impl<'a> Phong<'a> {
     }
 }
 
-impl Eye for Phong<'_> {
-    type Sample = Place;
-    type Seen = Seen;
-
+impl Eye<Places, Seen> for Phong<'_> {
     fn see(
         &self,
-        samples: &[Place],
+        places: &Places,
         seen: &mut Vec<Seen>,
         touched: Option<&mut Vec<Regions>>,
     ) -> RayCounts {
+        let count = places.x.len();
         // It does not know.
-        touched
-            .into_iter()
-            .for_each(|touched| touched.resize(touched.len() + samples.len(), Regions::ALL));
+        touched.into_iter().for_each(|touched| touched.resize(touched.len() + count, Regions::ALL));
         let mut counts = RayCounts::default();
         let ([width, height], camera) = (self.size, &self.world.scene.camera);
-        seen.extend(samples.iter().map(|place| {
-            let ray = camera.ray(place.x.into(), place.y.into(), width, height);
-            let spread = camera.spread(width) / f64::from(place.side);
+        let spread = camera.spread(width) / f64::from(places.side);
+        seen.extend(places.x.iter().zip(&places.y).map(|(x, y)| {
+            let ray = camera.ray(f64::from(*x), f64::from(*y), width, height);
             self.trace(ray, spread, &mut counts)
         }));
+        counts
+    }
+}
+
+impl Eye<Places, Shade> for Phong<'_> {
+    fn see(
+        &self,
+        places: &Places,
+        seen: &mut Vec<Shade>,
+        touched: Option<&mut Vec<Regions>>,
+    ) -> RayCounts {
+        let mut all: Vec<Seen> = Vec::new();
+        let counts = self.see(places, &mut all, touched);
+        seen.extend(all.iter().map(|seen| seen.shade));
         counts
     }
 }

@@ -317,10 +317,7 @@ fn ball((u, v): (f64, f64)) -> DVec3 {
     sphere((u, v)) * (u * 1.618_033_988_749_895 * 8.0).fract()
 }
 
-impl Eye for Studio<'_> {
-    type Sample = Sample;
-    type Seen = Glimpse;
-
+impl Eye<[Sample], Glimpse> for Studio<'_> {
     fn see(
         &self,
         samples: &[Sample],
