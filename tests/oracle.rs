@@ -14,6 +14,8 @@ use lightsquare::tracer::{Antialiasing, render, render_by_oracle};
 const WIDTH: u32 = 96;
 const HEIGHT: u32 = 64;
 
+const ADAPTIVE: Antialiasing = Antialiasing::Adaptive { rays: 4, threshold: 0.03 };
+
 const ENDING: &str = "8/5k2/8/3q1n2/8/2N2R2/1P2B3/K7";
 
 /// The ending with marks of all kinds and a clock, with the settings of a look as `change` has them.
@@ -83,15 +85,12 @@ fn packets_see_what_single_rays_see() {
         let (found, rays) = render(&scene, WIDTH, HEIGHT, mode);
         let (expected, all) = render_by_oracle(&scene, WIDTH, HEIGHT, mode);
         let others = beyond(&found, &expected);
-        println!("{name}: {others}");
         // A hair decides at an edge; of 6144 pixels.
         assert!(others <= 12, "{name}: {others} pixels differ");
         let (rays, all) = (rays.total() as f64, all.total() as f64);
         assert!((rays / all - 1.0).abs() < 0.002, "{name}: {rays} rays, expected {all}");
     }
 }
-
-const ADAPTIVE: Antialiasing = Antialiasing::Adaptive { rays: 4, threshold: 0.03 };
 
 fn glass(config: &mut Config) {
     config.theme = "glass".to_owned();

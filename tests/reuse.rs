@@ -8,9 +8,9 @@ use lightsquare::assets::{Assets, SetName};
 use lightsquare::config::{Config, Look, ShowClock, View};
 use lightsquare::game::{Game, Source};
 use lightsquare::job::Showing;
-use lightsquare::notation::Role;
+use lightsquare::notation::{Piece, Role, Square};
 use lightsquare::scene::{Scene, Stage};
-use lightsquare::timeline::{Film, Frame, Gaze, Pause, Timeline};
+use lightsquare::timeline::{Film, Frame, Gaze, Mover, Pause, Spot, Timeline};
 use lightsquare::tracer::{Antialiasing, RayCounts, Tracer, render};
 
 const WIDTH: u32 = 72;
@@ -109,7 +109,7 @@ fn the_game_has_everything_that_can_change() {
     let changes = |same: fn(&Frame, &Frame) -> bool| {
         frames.windows(2).filter(|pair| !same(&pair[0], &pair[1])).count()
     };
-    assert!(changes(|a, b| a.marks == b.marks) > 40 && changes(|a, b| a.dials == b.dials) > 20);
+    assert!(changes(|a, b| a.marks == b.marks) > 30 && changes(|a, b| a.dials == b.dials) > 30);
 }
 
 #[test]
@@ -120,14 +120,13 @@ fn a_game_in_a_row_has_the_pictures_that_it_has_one_by_one() {
             let scenes = show.scenes(0, show.frames.len() - 1);
             for mode in [Antialiasing::None, Antialiasing::Grid(2), ADAPTIVE] {
                 let share = assert_reuse(&format!("{name}, {view:?}"), &scenes, mode);
-                println!("{name}, {view:?}, {mode:?}: {share} of the rays");
                 assert!(share < 0.75, "{name}, {view:?}, {mode:?}: {share} of the rays");
             }
         }
     }
 }
 
-/// Round the promotion: three movers, glass or not.
+/// From before the promotion to after it.
 const FIRST: usize = 62;
 const LAST: usize = 72;
 
@@ -154,6 +153,23 @@ fn glass_and_lenses_and_grounds_change_nothing() {
     }
 }
 
+/// A frame with every third of the standing pieces in the air, and as far to the left, some of them beside the
+/// board.
+fn lifted(mut frame: Frame, height: f64) -> Frame {
+    let some: Vec<(Square, Piece)> = frame.placement.iter().step_by(3).collect();
+    for (square, piece) in some {
+        frame.placement.set(square, None);
+        let on = Spot::on(square);
+        frame.movers.push(Mover {
+            piece,
+            identity: frame.identities.get(square),
+            spot: Spot { file: on.file - 3.0 * height, height, ..on },
+            size: 1.0 - 0.3 * height,
+        });
+    }
+    frame
+}
+
 /// Backwards, by leaps, and between pictures that have nothing in common.
 #[test]
 fn any_picture_may_follow_any_other() {
@@ -164,6 +180,10 @@ fn any_picture_may_follow_any_other() {
             |index: usize| Frame { gaze: Gaze { orbit: 20.0, ..Gaze::default() }, ..frame(index) };
         let mut frames: Vec<Frame> = [70, 70, 66, 65, 64, 104, 0, 67, 3].map(frame).to_vec();
         frames.extend([turned(3), turned(3), turned(4), turned(65), frame(65), frame(66)]);
+        frames.extend(
+            [(65, 0.2), (65, 0.5), (66, 0.5), (66, 1.0), (69, 0.0)]
+                .map(|(index, height)| lifted(frame(index), height)),
+        );
         let mut scenes: Vec<Scene> = frames.iter().map(|frame| show.stage.scene(frame)).collect();
         let mut dark = show.stage.scene(&frame(67));
         dark.background = Some(DVec3::ZERO);

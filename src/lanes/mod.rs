@@ -441,11 +441,6 @@ impl<S: Simd> Mask8<S> {
         self.bits() != 0
     }
 
-    #[inline(always)]
-    pub fn all(self) -> bool {
-        self.bits() == u8::MAX
-    }
-
     /// This, and not the other.
     #[inline(always)]
     pub fn but(self, other: Mask8<S>) -> Mask8<S> {

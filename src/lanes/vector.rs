@@ -56,15 +56,6 @@ impl<S: Simd> Vec3x8<S> {
     }
 
     #[inline(always)]
-    pub fn cross(self, other: Vec3x8<S>) -> Vec3x8<S> {
-        Vec3x8::new(
-            self.y * other.z - self.z * other.y,
-            self.z * other.x - self.x * other.z,
-            self.x * other.y - self.y * other.x,
-        )
-    }
-
-    #[inline(always)]
     pub fn length(self) -> F32x8<S> {
         self.dot(self).sqrt()
     }
@@ -116,11 +107,6 @@ impl<S: Simd> Vec3x8<S> {
     #[inline(always)]
     pub fn max_element(self) -> F32x8<S> {
         self.x.max(self.y).max(self.z)
-    }
-
-    #[inline(always)]
-    pub fn min_element(self) -> F32x8<S> {
-        self.x.min(self.y).min(self.z)
     }
 
     #[inline(always)]

@@ -278,7 +278,8 @@ impl Slab {
         let left = number((self.side - self.reach - self.origin[0]) / self.side);
         let right = number((self.side + self.reach - self.origin[0]) / self.side);
         let most = N as f32;
-        for index in self.rows_of(o.z + d.z * enter, o.z + d.z * exit, lanes, ENDLESS) {
+        let wanted = self.rows_of(o.z + d.z * enter, o.z + d.z * exit, lanes, ENDLESS);
+        for (index, row) in rows.iter_mut().enumerate().take(wanted.end).skip(wanted.start) {
             let to_row = to_first + number(index as f32 * self.side);
             let mut near = (to_row - reach) * inverse.z;
             let mut far = (to_row + reach) * inverse.z;
@@ -308,7 +309,7 @@ impl Slab {
             let (first, behind) = (first.floor(), behind.floor());
             let bits = (one << behind.to_i32()) - (one << first.to_i32());
             let is_any = is_in & lanes & first.lt(behind);
-            rows[index] = is_any.select_words(bits, U32x8::splat(0));
+            *row = is_any.select_words(bits, U32x8::splat(0));
         }
     }
 }

@@ -6,11 +6,14 @@ use std::sync::{Arc, Mutex, PoisonError};
 use crate::geometry;
 use crate::packet::solids::Solid;
 
+/// A solid, and the packets' form of it.
+type Pair = (Arc<dyn geometry::Solid>, Arc<Solid>);
+
 /// Keeps the packets' form of solids that scenes share, from picture to picture.
 #[derive(Default)]
 pub struct Shelf {
     /// By address; the solid itself is kept so that nothing else can get it.
-    made: Mutex<HashMap<usize, (Arc<dyn geometry::Solid>, Arc<Solid>)>>,
+    made: Mutex<HashMap<usize, Pair>>,
 }
 
 /// More solids than a game has are those of pictures past.

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::{Normals, Solid};
-use crate::geometry::{self, Interval, Ray, Shape, Spans};
+use crate::geometry::{self, Bounds, Interval, Ray, Shape, Spans};
 use crate::lanes::{F32x8, Mask8, Plain, Simd, Task, U32x8, Vec3x8, dispatch};
 use crate::packet::Rays;
 
@@ -21,9 +21,15 @@ impl Chance {
         low + (high - low) * self.next()
     }
 
+    pub fn in_box(&mut self, bounds: &Bounds) -> DVec3 {
+        let share = DVec3::from([(); 3].map(|()| self.next()));
+        bounds.min + (bounds.max - bounds.min) * share
+    }
+
+    /// A vector of length 1.
     pub fn direction(&mut self) -> DVec3 {
         loop {
-            let at = DVec3::from([(); 3].map(|()| self.between(-1.0, 1.0)));
+            let at = self.in_box(&Bounds { min: DVec3::NEG_ONE, max: DVec3::ONE });
             if (0.01..1.0).contains(&at.length_squared()) {
                 return at.normalize();
             }
