@@ -84,3 +84,83 @@ impl<'a> Desk<'a> {
         (self.written.into_inner(), failed.map_or(Ok(()), Err))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+    use std::fs;
+    use std::path::Path;
+
+    /// Counts frames.
+    struct Counter(AtomicU64);
+
+    impl Progress for Counter {
+        fn begin(&self, _: u64) {}
+        fn game(&self, _: &str) {}
+        fn frame_done(&self) {
+            self.0.fetch_add(1, Ordering::Relaxed);
+        }
+        fn say(&self, _: &str) {}
+        fn detail(&self, _: &str) {}
+        fn is_cancelled(&self) -> bool {
+            false
+        }
+    }
+
+    fn sheet(path: PathBuf) -> Sheet {
+        Sheet { path, picture: Arc::new(DynamicImage::new_rgb8(40, 30)), texts: Vec::new() }
+    }
+
+    /// Hands sheets in on so many threads: what came of it, and the frames that progress was told of.
+    fn written(threads: usize, paths: &[PathBuf]) -> (u64, Result<(), OutputError>, u64) {
+        let progress = Counter(AtomicU64::new(0));
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let (count, outcome) = pool.install(|| {
+            let desk = Desk::new(&progress);
+            rayon::in_place_scope(|scope| {
+                for path in paths {
+                    desk.take(sheet(path.clone()), scope);
+                    assert!(desk.waiting.load(Ordering::Relaxed) <= desk.room);
+                }
+            });
+            desk.close()
+        });
+        (count, outcome, progress.0.into_inner())
+    }
+
+    fn files(folder: &Path) -> BTreeSet<PathBuf> {
+        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect()
+    }
+
+    #[test]
+    fn all_sheets_are_written_whatever_the_number_of_threads() {
+        for threads in [1, 2, 5] {
+            let folder = tempfile::tempdir().unwrap();
+            let paths: Vec<_> =
+                (0..40).map(|index| folder.path().join(index.to_string())).collect();
+            let (count, outcome, told) = written(threads, &paths);
+            assert!(outcome.is_ok());
+            assert_eq!([count, told], [40, 40], "{threads}");
+            assert_eq!(files(folder.path()), paths.into_iter().collect(), "{threads}");
+        }
+    }
+
+    #[test]
+    fn a_sheet_that_cannot_be_written_is_the_last_that_is_tried() {
+        for threads in [1, 3] {
+            let folder = tempfile::tempdir().unwrap();
+            let name = |index: usize| match index {
+                5 => "none/5".to_owned(),
+                _ => index.to_string(),
+            };
+            let paths: Vec<_> = (0..40).map(|index| folder.path().join(name(index))).collect();
+            let (count, outcome, told) = written(threads, &paths);
+            assert_eq!(outcome.unwrap_err().path, paths[5]);
+            assert_eq!(count, told);
+            assert_eq!(files(folder.path()).len() as u64, count);
+            // With one thread those before it alone; else those that others had in hand, too.
+            assert!(if threads == 1 { count == 5 } else { (1..39).contains(&count) }, "{count}");
+        }
+    }
+}
