@@ -56,7 +56,8 @@ fn textures(criterion: &mut Criterion) {
         let ball = Sphere { center: DVec3::ZERO, radius: 1.0 };
         Object::standing(ball, Surface::Uniform(Material { finish, coat, texture }))
     };
-    let board = scene(Look::Studio, &SetName::Staunton, START).objects.swap_remove(0);
+    let [mut start] = scenes(Look::Studio, &SetName::Staunton, [START]);
+    let board = start.objects.swap_remove(0);
     for (name, object, from, width) in [
         ("wood", ball(Texture::Wood { colors, noise, grain: Axis::Y }), DVec3::ZERO, 2.0),
         ("timber", ball(Texture::Timber { colors, ring: 0.2, grain: Axis::Y }), DVec3::ZERO, 2.0),
@@ -79,7 +80,7 @@ fn frames(criterion: &mut Criterion) {
     group.sample_size(10);
     let [width, height] = SIZE;
     for (name, look, set, mode) in LOOKS {
-        let [start, e4] = [START, E4].map(|board| scene(look, &set, board));
+        let [start, e4] = scenes(look, &set, [START, E4]);
         group.bench_function(format!("{name} whole"), |bencher| {
             bencher.iter(|| render(&start, width, height, mode))
         });
@@ -98,23 +99,25 @@ fn encoders(criterion: &mut Criterion) {
     let [width, height] = [1000, 600];
     group.throughput(Throughput::Elements(u64::from(width * height)));
     for (name, look, set, _) in LOOKS {
-        let scene = scene(look, &set, START);
-        let (picture, _) = render(&scene, width, height, Antialiasing::None);
+        let [start] = scenes(look, &set, [START]);
+        let (picture, _) = render(&start, width, height, Antialiasing::None);
         group.bench_function(format!("png {name}"), |bencher| {
             bencher.iter(|| encode_png(&picture, &[], None, io::sink()).unwrap())
         });
     }
 }
 
-/// A position in a look, as films have it.
-fn scene(look: Look, set: &SetName, board: &str) -> Scene {
+/// Positions in a look, as one film has them.
+fn scenes<const N: usize>(look: Look, set: &SetName, boards: [&str; N]) -> [Scene; N] {
     let mut config = Config::new(look);
     Quality::Normal.apply(&mut config.render);
     [config.width, config.height] = SIZE;
     let assets = Assets::load(&config, set).unwrap();
     let stage = Stage::new(&config, &assets, Reach::default()).unwrap();
-    let board = Board::from_ascii_board_fen(board.as_bytes()).unwrap();
-    stage.scene(&Frame::still(Placement::from(&board)))
+    boards.map(|board| {
+        let board = Board::from_ascii_board_fen(board.as_bytes()).unwrap();
+        stage.scene(&Frame::still(Placement::from(&board)))
+    })
 }
 
 criterion_group!(benches, nearest, textures, sequences, frames, encoders);
