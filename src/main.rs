@@ -3,13 +3,14 @@
 mod cli;
 mod progress;
 mod signals;
+mod table;
 
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::process::ExitCode;
 
 use anstyle::{AnsiColor, Style};
 use anyhow::Context;
-use lightsquare::job::{self, DiagramJob, JobError, Measurement, PictureSettings, Progress};
+use lightsquare::job::{self, DiagramJob, JobError, PictureSettings, Progress};
 use lightsquare::tracer::RayCounts;
 
 use cli::{Cli, Command, UsageError};
@@ -79,7 +80,8 @@ fn run() -> anyhow::Result<ExitCode> {
             if args.json {
                 writeln!(out, "{}", serde_json::to_string_pretty(&measurements)?)?;
             } else {
-                write!(out, "{}", table(&measurements))?;
+                write!(out, "{}", table::pictures(&measurements.pictures))?;
+                write!(out, "{}", table::games(&measurements.games))?;
             }
             Ok(ExitCode::SUCCESS)
         }
@@ -102,23 +104,6 @@ fn diagram(job: &DiagramJob, terminal: &Terminal) -> anyhow::Result<ExitCode> {
     let summary = job::diagram(job, terminal, &mut io::stdout().lock())?;
     terminal.detail(&rays(&summary.rays));
     Ok(whole(summary.is_whole))
-}
-
-/// Measurements as lines for people.
-fn table(measurements: &[Measurement]) -> String {
-    let mut lines = String::from(
-        "start position, 1000x600          seconds   thesis    times   primary    shadow reflected  Mrays/s/core\n",
-    );
-    for Measurement { setting, seconds, thesis_seconds, rays, mrays_per_second_and_core, .. } in
-        measurements
-    {
-        let times = thesis_seconds / seconds;
-        lines += &format!(
-            "{setting:32} {seconds:8.3} {thesis_seconds:8.0} {times:8.0} {:9} {:9} {:9} {mrays_per_second_and_core:13.2}\n",
-            rays.primary, rays.shadow, rays.reflected,
-        );
-    }
-    lines
 }
 
 fn whole(is_whole: bool) -> ExitCode {

@@ -412,13 +412,16 @@ fn pictures_of_a_game_do_not_take_the_place_of_what_they_are_made_of() {
 #[test]
 fn the_bench_measures_the_three_settings_of_the_thesis() {
     let folder = folder();
-    let (code, stdout, _) = run(folder.path(), &["bench", "--runs", "1", "--json"]);
+    let arguments = ["bench", "--runs", "1", "--plies", "0", "--json"];
+    let (code, stdout, _) = run(folder.path(), &arguments);
     assert_eq!(code, 0);
-    let rows: Vec<Value> = serde_json::from_str(&stdout).unwrap();
+    let measured: Value = serde_json::from_str(&stdout).unwrap();
+    let rows = measured["pictures"].as_array().unwrap();
     let thesis: Vec<f64> = rows.iter().map(|row| row["thesis_seconds"].as_f64().unwrap()).collect();
     assert_eq!(thesis, [228.0, 56.0, 31.0]);
     let primary: Vec<u64> =
         rows.iter().map(|row| row["rays"]["primary"].as_u64().unwrap()).collect();
     assert_eq!(primary, [2_400_000, 600_000, 600_000]);
     assert!(rows.iter().all(|row| row["seconds"].as_f64().unwrap() > 0.0));
+    assert_eq!(measured["games"].as_array().unwrap().len(), 0);
 }

@@ -25,7 +25,7 @@ use marks::DrawnArgs;
 use picture::PictureArgs;
 use print::PrintArgs;
 use subject::SubjectArgs;
-use values::{runs, threads};
+use values::{plies, runs, threads};
 
 /// Reads chess games (PGN), replays them and ray-traces them into numbered pictures.
 #[derive(Parser)]
@@ -160,7 +160,8 @@ both agree but for single pixels at edges; without it POV-Ray has wood and marbl
 const BENCH_EXAMPLES: &str = "\
 Examples:
   lightsquare bench
-  lightsquare bench --cpu 1 --runs 7 --json";
+  lightsquare bench --cpu 2 --runs 7 --json
+  lightsquare bench --plies 0";
 
 #[derive(Args)]
 pub struct RenderArgs {
@@ -225,13 +226,16 @@ enum ExportFormat {
 
 #[derive(Args)]
 pub struct BenchArgs {
-    /// Threads, from 1 to 1024 [default: one a core]
-    #[arg(long, value_name = "N", value_parser = threads)]
-    cpu: Option<usize>,
+    /// Threads, from 1 to 1024
+    #[arg(long, value_name = "N", default_value = "1", value_parser = threads)]
+    cpu: usize,
     /// How often each setting is rendered, from 1 to 1000; the quickest counts
     #[arg(long, value_name = "N", default_value = "3", value_parser = runs)]
     runs: usize,
-    /// Write a JSON array instead of a table
+    /// Half-moves of the game that are rendered, from 0 to 1000 [default: all]
+    #[arg(long, value_name = "N", value_parser = plies)]
+    plies: Option<usize>,
+    /// Write JSON instead of tables
     #[arg(long)]
     pub json: bool,
 }
@@ -324,7 +328,7 @@ impl ExportArgs {
 
 impl BenchArgs {
     pub fn to_job(&self) -> BenchJob {
-        BenchJob { threads: self.cpu, runs: self.runs }
+        BenchJob { threads: Some(self.cpu), runs: self.runs, plies: self.plies }
     }
 }
 

@@ -54,6 +54,10 @@ pub fn runs(text: &str) -> Result<usize, String> {
     whole_number(text, 1, 1000)
 }
 
+pub fn plies(text: &str) -> Result<usize, String> {
+    whole_number(text, 0, 1000)
+}
+
 pub fn dpi(text: &str) -> Result<u32, String> {
     whole_number(text, 10, 4800).map(|dpi| dpi as u32)
 }

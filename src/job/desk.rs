@@ -4,16 +4,15 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use image::DynamicImage;
 use rayon::Scope;
 
 use super::Progress;
-use crate::output::{OutputError, write_png};
+use crate::output::{OutputError, RepeatedPicture};
 
 /// A picture that is to be written.
 pub struct Sheet {
     pub path: PathBuf,
-    pub picture: Arc<DynamicImage>,
+    pub picture: Arc<RepeatedPicture>,
     /// What it says of itself: keywords and texts.
     pub texts: Vec<(&'static str, String)>,
 }
@@ -45,8 +44,12 @@ impl<'a> Desk<'a> {
         }
     }
 
-    /// Has a sheet written by the end of `scope`; at once, by the caller, if too many wait.
+    /// Has a sheet written by the end of `scope`; at once, by the caller, if too many wait. Once one could not be
+    /// written, no more are taken.
     pub fn take<'scope>(&'scope self, sheet: Sheet, scope: &Scope<'scope>) {
+        if self.has_failed() {
+            return;
+        }
         if self.waiting.load(Ordering::Relaxed) >= self.room {
             return self.write(&sheet);
         }
@@ -58,10 +61,7 @@ impl<'a> Desk<'a> {
     }
 
     fn write(&self, Sheet { path, picture, texts }: &Sheet) {
-        if self.has_failed() {
-            return;
-        }
-        match write_png(path, picture, texts, None) {
+        match picture.write_png(path, texts) {
             Ok(()) => {
                 self.written.fetch_add(1, Ordering::Relaxed);
                 self.progress.frame_done();
@@ -73,7 +73,7 @@ impl<'a> Desk<'a> {
         }
     }
 
-    /// Whether a sheet could not be written; those after it are not.
+    /// Whether a sheet could not be written.
     pub fn has_failed(&self) -> bool {
         self.failed.lock().unwrap_or_else(PoisonError::into_inner).is_some()
     }
@@ -82,5 +82,89 @@ impl<'a> Desk<'a> {
     pub fn close(self) -> (u64, Result<(), OutputError>) {
         let failed = self.failed.into_inner().unwrap_or_else(PoisonError::into_inner);
         (self.written.into_inner(), failed.map_or(Ok(()), Err))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use image::DynamicImage;
+    use std::collections::BTreeSet;
+    use std::fs;
+    use std::path::Path;
+
+    /// Counts frames.
+    struct Counter(AtomicU64);
+
+    impl Progress for Counter {
+        fn begin(&self, _: u64) {}
+        fn game(&self, _: &str) {}
+        fn frame_done(&self) {
+            self.0.fetch_add(1, Ordering::Relaxed);
+        }
+        fn say(&self, _: &str) {}
+        fn detail(&self, _: &str) {}
+        fn is_cancelled(&self) -> bool {
+            false
+        }
+    }
+
+    fn sheet(path: PathBuf) -> Sheet {
+        let picture = Arc::new(RepeatedPicture::new(DynamicImage::new_rgb8(40, 30)));
+        Sheet { path, picture, texts: Vec::new() }
+    }
+
+    /// Hands sheets in on so many threads: what came of it, and the frames that progress was told of.
+    fn written(threads: usize, paths: &[PathBuf]) -> (u64, Result<(), OutputError>, u64) {
+        let progress = Counter(AtomicU64::new(0));
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let (count, outcome) = pool.install(|| {
+            let desk = Desk::new(&progress);
+            rayon::in_place_scope(|scope| {
+                for path in paths {
+                    desk.take(sheet(path.clone()), scope);
+                    assert!(desk.waiting.load(Ordering::Relaxed) <= desk.room);
+                }
+            });
+            desk.close()
+        });
+        (count, outcome, progress.0.into_inner())
+    }
+
+    fn files(folder: &Path) -> BTreeSet<PathBuf> {
+        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect()
+    }
+
+    #[test]
+    fn all_sheets_are_written_whatever_the_number_of_threads() {
+        for threads in [1, 2, 5] {
+            let folder = tempfile::tempdir().unwrap();
+            let paths: Vec<_> =
+                (0..40).map(|index| folder.path().join(index.to_string())).collect();
+            let (count, outcome, told) = written(threads, &paths);
+            assert!(outcome.is_ok());
+            assert_eq!([count, told], [40, 40], "{threads}");
+            assert_eq!(files(folder.path()), paths.into_iter().collect(), "{threads}");
+        }
+    }
+
+    #[test]
+    fn a_sheet_that_cannot_be_written_stops_those_behind_it_alone() {
+        for threads in [1, 3] {
+            let folder = tempfile::tempdir().unwrap();
+            let name = |index: usize| match index {
+                5 => "none/5".to_owned(),
+                _ => index.to_string(),
+            };
+            let paths: Vec<_> = (0..40).map(|index| folder.path().join(name(index))).collect();
+            let (count, outcome, told) = written(threads, &paths);
+            assert_eq!(outcome.unwrap_err().path, paths[5]);
+            assert_eq!(count, told);
+            let files = files(folder.path());
+            assert_eq!(files.len() as u64, count);
+            assert!(paths[..5].iter().all(|path| files.contains(path)), "{threads}");
+            // With more threads some may have been in hand.
+            assert!(threads > 1 || count == 5, "{count}");
+        }
     }
 }

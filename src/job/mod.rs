@@ -17,7 +17,7 @@ mod studio;
 mod subject;
 mod wording;
 
-pub use bench::{BenchJob, Measurement, bench};
+pub use bench::{BenchJob, GameMeasurement, Measurement, Measurements, bench};
 pub use diagram::{DiagramJob, DiagramSummary, Drawn, diagram};
 pub use export::{ExportJob, export};
 pub use inspect::{InspectJob, Listing, inspect};

@@ -11,6 +11,7 @@ use crate::assets::{Assets, SetName};
 use crate::caption::{Caption, Content};
 use crate::config::{Config, Render, Sampling, ShowClock};
 use crate::game::printable;
+use crate::output::RepeatedPicture;
 use crate::scene::{self, Reach, Stage};
 use crate::timeline::{Bodies, Frame};
 use crate::tracer::{self, Antialiasing, RayCounts, Tracer};
@@ -78,9 +79,9 @@ fn antialiasing(render: &Render) -> Antialiasing {
 struct Shot {
     /// What of the frame can be seen.
     shown: Frame,
-    scene: Arc<DynamicImage>,
+    scene: Arc<RepeatedPicture>,
     /// What was said on it, and the whole picture.
-    said: Option<(Content, Arc<DynamicImage>)>,
+    said: Option<(Content, Arc<RepeatedPicture>)>,
 }
 
 /// Makes pictures of frames, on the threads of the pool that it is asked in.
@@ -112,15 +113,18 @@ impl<'a> Studio<'a> {
 
     /// The picture of a frame of a film, with `content` in words if there is any. What stood still since the
     /// frame before is not traced again. A pause is one picture many times over: it is made once.
-    pub fn picture(&mut self, frame: &Frame, content: Option<&Content>) -> Arc<DynamicImage> {
+    pub fn picture(&mut self, frame: &Frame, content: Option<&Content>) -> Arc<RepeatedPicture> {
         let shown = self.shown_of(frame);
         let (scene, said) = match self.last.take() {
             Some(last) if shown.shows_the_same(&last.shown) => (last.scene, last.said),
-            _ => (Arc::new(self.trace(&shown)), None),
+            _ => (Arc::new(RepeatedPicture::new(self.trace(&shown))), None),
         };
         let said = content.map(|content| match said {
             Some((last, picture)) if last == *content => (last, picture),
-            _ => (content.clone(), Arc::new(self.caption.draw(&scene, content))),
+            _ => {
+                let picture = self.caption.draw(scene.picture(), content);
+                (content.clone(), Arc::new(RepeatedPicture::new(picture)))
+            }
         });
         let picture = said.as_ref().map_or(&scene, |(_, picture)| picture).clone();
         self.last = Some(Shot { shown, scene, said });

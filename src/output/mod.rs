@@ -11,7 +11,7 @@ mod slug;
 
 pub use frames::{frame_name, manifest_name, remove_frames};
 pub use picture::{PictureFormat, write_picture};
-pub use png::{encode_png, write_png};
+pub use png::{RepeatedPicture, encode_png, write_png};
 pub use record::{write_json, write_json_lines};
 pub use slug::slug;
 

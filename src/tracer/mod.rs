@@ -9,6 +9,8 @@ mod cells;
 mod exposure;
 mod eye;
 mod footprint;
+#[doc(hidden)]
+pub mod kernels;
 mod lights;
 mod materials;
 mod optics;

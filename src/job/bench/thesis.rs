@@ -4,23 +4,15 @@ use std::time::Instant;
 
 use serde::Serialize;
 
-use super::JobError;
-use super::studio::{PictureSettings, Studio};
+use super::BenchJob;
 use crate::assets::SetName;
 use crate::config::{Config, Look, Sampling};
+use crate::job::JobError;
+use crate::job::studio::{PictureSettings, Studio};
 use crate::notation::{Board, Placement};
 use crate::scene::Reach;
 use crate::timeline::Frame;
 use crate::tracer::RayCounts;
-
-/// How to measure.
-#[derive(Clone, Copy, Debug)]
-pub struct BenchJob {
-    /// As many as the machine has cores when `None`.
-    pub threads: Option<usize>,
-    /// How often each setting is rendered; the quickest counts.
-    pub runs: usize,
-}
 
 /// What one of the thesis's settings took.
 #[derive(Clone, Debug, Serialize)]
@@ -47,7 +39,7 @@ const SETTINGS: [(&str, Sampling, u32, f64); 3] = [
 ///
 /// # Errors
 /// When threads cannot be started.
-pub fn bench(job: &BenchJob) -> Result<Vec<Measurement>, JobError> {
+pub fn measure(job: &BenchJob) -> Result<Vec<Measurement>, JobError> {
     let frame = Frame::still(Placement::from(&Board::default()));
     let measure = |(setting, sampling, subdivisions, thesis_seconds)| {
         let mut config = Config::new(Look::Thesis);

@@ -1,0 +1,38 @@
+//! Measurements as lines for people.
+
+use lightsquare::job::{GameMeasurement, Measurement};
+
+/// Of the thesis's settings.
+pub fn pictures(measurements: &[Measurement]) -> String {
+    let mut lines = String::from(
+        "start position, 1000x600          seconds   thesis    times   primary    shadow reflected  Mrays/s/core\n",
+    );
+    for Measurement { setting, seconds, thesis_seconds, rays, mrays_per_second_and_core, .. } in
+        measurements
+    {
+        let times = thesis_seconds / seconds;
+        lines += &format!(
+            "{setting:32} {seconds:8.3} {thesis_seconds:8.0} {times:8.0} {:9} {:9} {:9} {mrays_per_second_and_core:13.2}\n",
+            rays.primary, rays.shadow, rays.reflected,
+        );
+    }
+    lines
+}
+
+/// Of a game; nothing where none was measured.
+pub fn games(measurements: &[GameMeasurement]) -> String {
+    if measurements.is_empty() {
+        return String::new();
+    }
+    let mut lines = String::from(
+        "\na game, seconds a frame               frames   whole*    reuse    times  frames/s\n",
+    );
+    for measurement in measurements {
+        let GameMeasurement { setting, frames, whole_seconds, reuse_seconds, .. } = measurement;
+        let (times, rate) = (whole_seconds / reuse_seconds, 1.0 / reuse_seconds);
+        lines += &format!(
+            "{setting:37} {frames:6} {whole_seconds:8.4} {reuse_seconds:8.4} {times:8.1} {rate:9.1}\n",
+        );
+    }
+    lines + "* of every n-th frame, ten at most\n"
+}
