@@ -88,7 +88,8 @@ impl Task for &Patch {
         let mut sum = F32x8::<S>::splat(0.0);
         for points in &self.points {
             let seen = F32x8::splat(0.05);
-            sum = sum + self.surface.look(loaded(points), seen, Mask8::all_lanes()).color.x;
+            let look = self.surface.look(loaded(points), seen, Mask8::all_lanes());
+            sum = look.color.x + sum;
         }
         sum.store().iter().sum()
     }

@@ -1,6 +1,7 @@
 //! What a pixel shows, and as which bytes.
 
 use image::{DynamicImage, RgbImage, RgbaImage};
+use rayon::prelude::*;
 
 use super::plane::Plane;
 use crate::scene::Rgb;
@@ -54,8 +55,21 @@ pub fn picture(pixels: &Plane<Stored>, is_transparent: bool) -> DynamicImage {
         let bytes = pixels.values().as_flattened().to_vec();
         RgbaImage::from_raw(width, height, bytes).map(DynamicImage::ImageRgba8)
     } else {
-        let bytes = pixels.values().iter().flat_map(|[red, green, blue, _]| [*red, *green, *blue]);
-        RgbImage::from_raw(width, height, bytes.collect()).map(DynamicImage::ImageRgb8)
+        RgbImage::from_raw(width, height, opaque(pixels.values())).map(DynamicImage::ImageRgb8)
     };
     picture.unwrap_or_default()
+}
+
+/// How many pixels a thread converts at a time.
+const RUN: usize = 1 << 14;
+
+/// Red, green and blue alone.
+fn opaque(pixels: &[Stored]) -> Vec<u8> {
+    let mut bytes = vec![0; 3 * pixels.len()];
+    bytes.par_chunks_mut(3 * RUN).zip(pixels.par_chunks(RUN)).for_each(|(bytes, pixels)| {
+        for (bytes, [red, green, blue, _]) in bytes.chunks_exact_mut(3).zip(pixels) {
+            bytes.copy_from_slice(&[*red, *green, *blue]);
+        }
+    });
+    bytes
 }

@@ -119,7 +119,8 @@ impl<T: Copy + Send + Sync> Plane<T> {
             }
             counts
         };
-        let bands = self.values.par_chunks_mut(ROWS * width).enumerate();
+        // What is to be done may all be in a few of them: each may go to another thread.
+        let bands = self.values.par_chunks_mut(ROWS * width).enumerate().with_max_len(1);
         let sum = RayCounts::default;
         match regions {
             None => bands.map(|(index, rows)| band(index, rows, None)).reduce(sum, Add::add),
