@@ -49,21 +49,30 @@ impl<T: Copy + Send + Sync> Plane<T> {
     }
 
     /// Another plane, of what `make` gives for each pixel's value.
-    pub fn map<R: Copy + Send + Sync>(&self, make: impl Fn(Spot, &T) -> R + Sync) -> Plane<R> {
+    pub fn map<R: Copy + Default + Send + Sync>(
+        &self,
+        make: impl Fn(Spot, &T) -> R + Sync,
+    ) -> Plane<R> {
+        let mut made = Plane::new(self.width, self.height, R::default());
         let width = self.width.max(1) as usize;
-        let make = |(index, value): (usize, &T)| {
-            make([(index % width) as u32, (index / width) as u32], value)
-        };
-        let values = self.values.par_iter().enumerate().with_min_len(1 << 14).map(make).collect();
-        Plane { width: self.width, height: self.height, values }
+        let rows = made.values.par_chunks_mut(width).zip(self.values.par_chunks(width));
+        rows.enumerate().with_min_len(ROWS).for_each(|(y, (made, values))| {
+            for (x, (made, value)) in made.iter_mut().zip(values).enumerate() {
+                *made = make([x as u32, y as u32], value);
+            }
+        });
+        made
     }
 
     /// Gives some pixels one value.
     pub fn set(&mut self, wanted: impl Fn(Spot) -> bool + Sync, value: T) {
         let width = self.width.max(1) as usize;
-        self.values.par_iter_mut().enumerate().with_min_len(1 << 14).for_each(|(index, stored)| {
-            if wanted([(index % width) as u32, (index / width) as u32]) {
-                *stored = value;
+        let rows = self.values.par_chunks_mut(width).enumerate().with_min_len(ROWS);
+        rows.for_each(|(y, row)| {
+            for (x, stored) in row.iter_mut().enumerate() {
+                if wanted([x as u32, y as u32]) {
+                    *stored = value;
+                }
             }
         });
     }
@@ -71,12 +80,15 @@ impl<T: Copy + Send + Sync> Plane<T> {
     /// The values of some pixels, to be restored later.
     pub fn saved(&self, wanted: impl Fn(Spot) -> bool) -> Vec<(usize, T)> {
         let width = self.width.max(1) as usize;
-        let spot = |index: usize| [(index % width) as u32, (index / width) as u32];
-        let values = self.values.iter().enumerate();
-        values
-            .filter(|(index, _)| wanted(spot(*index)))
-            .map(|(index, value)| (index, *value))
-            .collect()
+        let mut saved = Vec::new();
+        for (y, row) in self.values.chunks(width).enumerate() {
+            for (x, value) in row.iter().enumerate() {
+                if wanted([x as u32, y as u32]) {
+                    saved.push((y * width + x, *value));
+                }
+            }
+        }
+        saved
     }
 
     pub fn restore(&mut self, saved: Vec<(usize, T)>) {

@@ -7,6 +7,7 @@
 use std::ops::Range;
 
 use glam::{DVec3, Vec3};
+use smallvec::SmallVec;
 
 use crate::geometry::{Bounds, Solid};
 use crate::lanes::{F32x8, Mask8, Simd, U32x8, Vec3x8};
@@ -38,11 +39,15 @@ impl Regions {
         regions
     }
 
-    /// Whether both sets have any region in common.
+    /// Those parts of the set that are not empty, by number: what [`Regions::meet`] asks for.
+    pub fn words(&self) -> SmallVec<[(usize, u32); WORDS]> {
+        self.0.iter().copied().enumerate().filter(|(_, word)| *word != 0).collect()
+    }
+
+    /// Whether this set has any region in common with the one of these parts.
     #[inline(always)]
-    pub fn meet(&self, other: &Regions) -> bool {
-        let both = self.0.iter().zip(&other.0).fold(0, |both, (one, other)| both | one & other);
-        both != 0
+    pub fn meet(&self, words: &[(usize, u32)]) -> bool {
+        words.iter().any(|(index, word)| self.0[*index] & word != 0)
     }
 
     pub fn add(&mut self, other: &Regions) {

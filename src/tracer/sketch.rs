@@ -112,11 +112,13 @@ impl<L: Copy + Send + Sync> Sketch<L> {
         if changed.is_empty() {
             return None;
         }
-        let looks = first.map(|_, regions| regions.meet(changed));
-        let is_stale = |spot: Spot, regions: &Regions| {
-            regions.meet(changed) || looks.width > 0 && looks.round(spot).any(|is| is)
+        let changed = changed.words();
+        let looks = first.map(|_, regions| regions.meet(&changed));
+        let pixels = if looks.width == 0 {
+            all.map(|_, regions| regions.meet(&changed))
+        } else {
+            all.map(|spot, regions| regions.meet(&changed) || looks.round(spot).any(|is| is))
         };
-        let pixels = all.map(is_stale);
         Some([looks, pixels])
     }
 

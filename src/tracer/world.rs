@@ -309,7 +309,19 @@ impl<'a> World<'a> {
                 look(*index, near, &mut search);
             }
         }
-        self.grid.visit(rays, inverse, &mut search, look);
+        self.grid.visit(
+            rays,
+            inverse,
+            &mut search,
+            #[inline(always)]
+            |index, lanes, search| {
+                let body = &self.bodies[index];
+                let near = lanes & enters(rays, inverse, [body.min, body.max], search.before);
+                if near.any() {
+                    look(index, near, search);
+                }
+            },
+        );
     }
 
     /// What is seen of the bodies that rays meet, where widths of `seen` are seen at once.
