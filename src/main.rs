@@ -3,7 +3,6 @@
 mod cli;
 mod progress;
 mod signals;
-mod table;
 
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::process::ExitCode;
@@ -80,8 +79,8 @@ fn run() -> anyhow::Result<ExitCode> {
             if args.json {
                 writeln!(out, "{}", serde_json::to_string_pretty(&measurements)?)?;
             } else {
-                write!(out, "{}", table::pictures(&measurements.pictures))?;
-                write!(out, "{}", table::games(&measurements.games))?;
+                write!(out, "{}", cli::table::pictures(&measurements.pictures))?;
+                write!(out, "{}", cli::table::games(&measurements.games))?;
             }
             Ok(ExitCode::SUCCESS)
         }

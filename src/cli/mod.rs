@@ -5,6 +5,7 @@ mod marks;
 mod picture;
 mod print;
 mod subject;
+pub mod table;
 mod thesis;
 mod values;
 
