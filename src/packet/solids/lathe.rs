@@ -49,6 +49,14 @@ struct Ring {
     zone: Zone,
 }
 
+impl Ring {
+    /// Whether it lies in a level plane, which is crossed once: both roots are the same, but for rounding.
+    #[inline(always)]
+    fn is_flat(&self) -> bool {
+        self.nu2 == 0.0
+    }
+}
+
 /// A segment for those who ask on which side they are.
 struct Side {
     from_u: f32,
@@ -258,6 +266,9 @@ impl Lathe {
                             best.t = is_nearer.select(t, best.t);
                             let part = U32x8::splat(index as u32);
                             best.part = is_nearer.select_words(part, best.part);
+                            if ring.is_flat() {
+                                break;
+                            }
                         }
                         false
                     },
@@ -312,6 +323,9 @@ impl Lathe {
                                 & distance.gt(after)
                                 & distance.lt(before);
                             *open = is_met.select(nowhere, *open);
+                            if ring.is_flat() {
+                                break;
+                            }
                         }
                         !open.gt(nowhere).any()
                     },
