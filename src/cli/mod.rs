@@ -230,12 +230,12 @@ pub struct BenchArgs {
     /// Threads, from 1 to 1024
     #[arg(long, value_name = "N", default_value = "1", value_parser = threads)]
     cpu: usize,
-    /// How often each setting is rendered, from 1 to 1000; the quickest counts
+    /// How often each of the thesis's settings is rendered, from 1 to 1000; the quickest counts
     #[arg(long, value_name = "N", default_value = "3", value_parser = runs)]
     runs: usize,
-    /// Half-moves of the game that are rendered, from 0 to 1000 [default: all]
-    #[arg(long, value_name = "N", value_parser = plies)]
-    plies: Option<usize>,
+    /// Half-moves of the game that are rendered, once, from 0 to 1000; it has 87
+    #[arg(long, value_name = "N", default_value = "4", value_parser = plies)]
+    plies: usize,
     /// Write JSON instead of tables
     #[arg(long)]
     pub json: bool,

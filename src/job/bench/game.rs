@@ -1,4 +1,4 @@
-//! A whole game frame by frame, with what stood still reused, beside whole renders.
+//! A game frame by frame, with what stood still reused, beside whole renders.
 
 use std::time::Instant;
 
@@ -56,7 +56,7 @@ const SETTINGS: [(&str, Look, View, bool); 5] = [
 /// # Errors
 /// When threads cannot be started.
 pub fn measure(job: &BenchJob) -> Result<Vec<GameMeasurement>, JobError> {
-    let Some(game) = game().filter(|_| job.plies != Some(0)) else {
+    let Some(game) = game().filter(|_| job.plies > 0) else {
         return Ok(Vec::new());
     };
     let measure = |(setting, look, view, animate)| {
@@ -92,7 +92,7 @@ fn film(
     let reach = showing.reach(&picture.config);
     let studio = || Studio::new(picture, reach);
     let script = showing.script(&picture.config, studio()?.bodies().clone());
-    let plies = job.plies.map_or(game.plies.len(), |plies| plies.min(game.plies.len()));
+    let plies = job.plies.min(game.plies.len());
     let timeline = Timeline::new(game, 0, plies, &script).map_err(|error| JobError::Path {
         file: setting.to_owned(),
         game: game.number,
@@ -102,16 +102,13 @@ fn film(
     let samples: Vec<_> =
         frames.iter().step_by(frames.len().div_ceil(SAMPLES.min(plies + 1))).collect();
     let pool = picture.pool()?;
-    let (mut whole, mut reuse) = (f64::INFINITY, f64::INFINITY);
-    for _ in 0..job.runs {
-        let mut studio = studio()?;
-        let begin = Instant::now();
-        pool.install(|| samples.iter().for_each(|frame| drop(studio.trace_whole(frame))));
-        whole = whole.min(begin.elapsed().as_secs_f64() / samples.len() as f64);
-        let begin = Instant::now();
-        pool.install(|| frames.iter().for_each(|frame| drop(studio.trace(frame))));
-        reuse = reuse.min(begin.elapsed().as_secs_f64() / frames.len() as f64);
-    }
+    let mut studio = studio()?;
+    let begin = Instant::now();
+    pool.install(|| samples.iter().for_each(|frame| drop(studio.trace_whole(frame))));
+    let whole = begin.elapsed().as_secs_f64() / samples.len() as f64;
+    let begin = Instant::now();
+    pool.install(|| frames.iter().for_each(|frame| drop(studio.trace(frame))));
+    let reuse = begin.elapsed().as_secs_f64() / frames.len() as f64;
     Ok(GameMeasurement {
         setting,
         frames: frames.len(),
@@ -149,7 +146,7 @@ mod tests {
         (config.width, config.height) = (16, 9);
         let set = SetName::Thesis;
         let picture = PictureSettings { config, config_file: None, set, threads: Some(1) };
-        let job = BenchJob { threads: Some(1), runs: 2, plies: Some(2) };
+        let job = BenchJob { threads: Some(1), runs: 2, plies: 2 };
         for (animate, frames) in [(false, 3), (true, 19)] {
             let showing = Showing { film: FILM, animate, ..Showing::default() };
             let measured = film("", &game().unwrap(), &showing, &picture, &job).unwrap();

@@ -15,20 +15,20 @@ use super::JobError;
 pub struct BenchJob {
     /// As many as the machine has cores when `None`.
     pub threads: Option<usize>,
-    /// How often each setting is rendered; the quickest counts.
+    /// How often each of the thesis's settings is rendered; the quickest counts.
     pub runs: usize,
-    /// How many half-moves of the game are rendered: all when `None`.
-    pub plies: Option<usize>,
+    /// How many half-moves of the game are rendered, once.
+    pub plies: usize,
 }
 
-/// What was measured. Seconds are of tracing alone, the quickest run's.
+/// What was measured. Seconds are of tracing alone.
 #[derive(Clone, Debug, Serialize)]
 pub struct Measurements {
     pub pictures: Vec<Measurement>,
     pub games: Vec<GameMeasurement>,
 }
 
-/// Measures the thesis's three settings, and then a whole game.
+/// Measures the thesis's three settings, and then a game.
 ///
 /// # Errors
 /// When threads cannot be started.
