@@ -84,7 +84,8 @@ fn assert_reuse(what: &str, scenes: &[Scene], mode: Antialiasing) -> f64 {
     let mut rays = Vec::new();
     let expected = whole(scenes, mode);
     for (index, (scene, (expected, _))) in scenes.iter().zip(&expected).enumerate() {
-        let (found, counts) = tracer.picture(scene);
+        let coming = scenes[index + 1..].iter().cloned();
+        let (found, counts) = tracer.picture(scene, coming);
         rays.push(counts);
         let pairs = found.as_bytes().iter().zip(expected.as_bytes());
         let others = pairs.filter(|(a, b)| a != b).count();
@@ -201,7 +202,8 @@ fn any_number_of_threads_gives_the_same_bytes() {
         let with = |threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             let mut tracer = Tracer::new(WIDTH, HEIGHT, ADAPTIVE);
-            pool.install(|| scenes.iter().map(|scene| tracer.picture(scene)).collect::<Vec<_>>())
+            let picture = |index: usize| tracer.picture(&scenes[index], scenes[index + 1..].to_vec());
+            pool.install(|| (0..scenes.len()).map(picture).collect::<Vec<_>>())
         };
         let alone = with(1);
         for threads in [2, 5] {
@@ -219,10 +221,13 @@ fn a_body_that_is_wider_than_its_envelope_is_caught() {
         let scenes = show.scenes(0, show.frames.len() - 1);
         let mode = Antialiasing::None;
         let expected = whole(&scenes, mode);
-        let wrong = |share: f32| {
+        let wrong = |share: f64| {
             let mut tracer = Tracer::new(WIDTH, HEIGHT, mode).shrunk(share);
-            let pictures = scenes.iter().zip(&expected);
-            pictures.filter(|(scene, (expected, _))| tracer.picture(scene).0 != *expected).count()
+            let is_wrong = |index: &usize| {
+                let coming = scenes[index + 1..].iter().cloned();
+                tracer.picture(&scenes[*index], coming).0 != expected[*index].0
+            };
+            (0..scenes.len()).filter(is_wrong).count()
         };
         assert_eq!(wrong(1.0), 0, "{look:?}");
         let found = wrong(0.7);

@@ -194,7 +194,9 @@ impl Run<'_> {
                     break;
                 }
                 let frame = timeline.frame(index);
-                let picture = self.studio.picture(&frame, captions.of(&frame).as_ref());
+                let coming = (index + 1..part.frames.end).map(|index| timeline.frame(index));
+                let content = captions.of(&frame);
+                let picture = self.studio.picture(&frame, content.as_ref(), coming);
                 let name = frame_name(index);
                 let (path, texts) = (folder.join(&name), texts(game, &frame));
                 desk.take(Sheet { path, picture, texts }, scope);

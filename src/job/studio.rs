@@ -112,12 +112,18 @@ impl<'a> Studio<'a> {
     }
 
     /// The picture of a frame of a film, with `content` in words if there is any. What stood still since the
-    /// frame before is not traced again. A pause is one picture many times over: it is made once.
-    pub fn picture(&mut self, frame: &Frame, content: Option<&Content>) -> Arc<RepeatedPicture> {
-        let shown = self.shown_of(frame);
+    /// frame before is not traced again, as far as it is known what is `coming`. A pause is one picture many times
+    /// over: it is made once.
+    pub fn picture(
+        &mut self,
+        frame: &Frame,
+        content: Option<&Content>,
+        coming: impl Iterator<Item = Frame>,
+    ) -> Arc<RepeatedPicture> {
+        let shown = shown_of(self.settings, frame);
         let (scene, said) = match self.last.take() {
             Some(last) if shown.shows_the_same(&last.shown) => (last.scene, last.said),
-            _ => (Arc::new(RepeatedPicture::new(self.trace(&shown))), None),
+            _ => (Arc::new(RepeatedPicture::new(self.trace(&shown, coming))), None),
         };
         let said = content.map(|content| match said {
             Some((last, picture)) if last == *content => (last, picture),
@@ -133,23 +139,23 @@ impl<'a> Studio<'a> {
 
     /// The same picture, if it is the only one.
     pub fn single(&mut self, frame: &Frame, content: Option<&Content>) -> DynamicImage {
-        let scene = self.trace_whole(&self.shown_of(frame));
+        let scene = self.trace_whole(&shown_of(self.settings, frame));
         match content {
             Some(content) => self.caption.draw(&scene, content),
             None => scene,
         }
     }
 
-    /// What of a frame can be seen in the scene.
-    fn shown_of(&self, frame: &Frame) -> Frame {
-        let dials =
-            frame.dials.clone().filter(|_| self.settings.config.clock.show == ShowClock::Game);
-        Frame { dials, ..frame.clone() }
-    }
-
-    /// The scene of a frame, without words.
-    pub fn trace(&mut self, frame: &Frame) -> DynamicImage {
-        let (picture, rays) = self.tracer.picture(&self.stage.scene(frame));
+    /// The scene of a frame, without words; those that are `coming` are to follow.
+    pub fn trace(&mut self, frame: &Frame, coming: impl Iterator<Item = Frame>) -> DynamicImage {
+        let (settings, mut last) = (self.settings, frame.clone());
+        let others = coming.map(|frame| shown_of(settings, &frame)).filter(|frame| {
+            let is_other = !frame.shows_the_same(&last);
+            last.clone_from(frame);
+            is_other
+        });
+        let scenes = others.map(|frame| self.stage.scene(&frame));
+        let (picture, rays) = self.tracer.picture(&self.stage.scene(frame), scenes);
         self.rays = self.rays + rays;
         picture
     }
@@ -181,4 +187,10 @@ impl<'a> Studio<'a> {
             config: &self.settings.config,
         }
     }
+}
+
+/// What of a frame can be seen in the scene.
+fn shown_of(settings: &PictureSettings, frame: &Frame) -> Frame {
+    let dials = frame.dials.clone().filter(|_| settings.config.clock.show == ShowClock::Game);
+    Frame { dials, ..frame.clone() }
 }

@@ -49,7 +49,7 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DVec2, DVec3};
 
-use crate::geometry::{Placed, Solid};
+use crate::geometry::{Bounds, Placed, Solid};
 
 /// A solid in its place, with what it is made of.
 #[derive(Clone)]
@@ -116,6 +116,25 @@ pub struct Cells {
 impl Default for Cells {
     fn default() -> Cells {
         Cells { origin: DVec2::ZERO, side: 1.0, reach: 0.0, heights: [0.0, 0.0] }
+    }
+}
+
+impl Cells {
+    /// How many rows there are, and cells in each.
+    const SIDE: f64 = 8.0;
+
+    /// The cell in which a body stands, row by row; none where it does not keep to one.
+    pub fn cell(&self, body: &Placed) -> Option<usize> {
+        let Bounds { min, max } = body.bounds();
+        let Cells { origin, side, reach, heights: [low, high] } = *self;
+        let middle = (min + max) / 2.0;
+        let place = [middle.x - origin.x, middle.z - origin.y].map(|at| (at / side).round());
+        let [column, row] = place;
+        let is_there = place.iter().all(|index| (0.0..Cells::SIDE).contains(index));
+        let (x, z) = (origin.x + column * side, origin.y + row * side);
+        let asides = [x - min.x, max.x - x, z - min.z, max.z - z];
+        let keeps = asides.iter().all(|aside| *aside <= reach) && min.y >= low && max.y <= high;
+        (is_there && keeps).then(|| (Cells::SIDE * row + column) as usize)
     }
 }
 

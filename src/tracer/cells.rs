@@ -2,14 +2,11 @@
 
 use smallvec::SmallVec;
 
-use super::regions::Slab;
+use super::slab::{SIDE, Slab};
 use super::world::Search;
 use crate::lanes::{F32x8, Mask8, Simd, U32x8, Vec3x8};
 use crate::packet::Rays;
 use crate::scene::Cells;
-
-/// Rows and columns, so that a cell is a bit of 64.
-const SIDE: usize = 8;
 
 /// What stands in the cells.
 pub struct Grid {
@@ -53,8 +50,8 @@ impl Grid {
         if self.occupied == 0 {
             return;
         }
-        let mut rows = [U32x8::splat(0); 8];
-        self.slab.rows::<S, SIDE, false>(rays, inverse, search.before, search.lanes, &mut rows);
+        let mut rows = [U32x8::splat(0); SIDE];
+        self.slab.rows(rays, inverse, search.before, search.lanes, &mut rows);
         let passed = [
             rows[0] | rows[1] << 8 | rows[2] << 16 | rows[3] << 24,
             rows[4] | rows[5] << 8 | rows[6] << 16 | rows[7] << 24,

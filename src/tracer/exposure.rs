@@ -5,8 +5,7 @@ use glam::{DVec3, Vec3};
 use super::eye::Eye;
 use super::pixel::{Pixel, Stored};
 use super::plane::{Plane, Spot};
-use super::regions::Regions;
-use super::sampling::union;
+use super::ties::Ties;
 use super::sketch::Painter;
 use super::{Antialiasing, RayCounts, tone};
 use crate::scene::{Rgb, Scene, linear_light};
@@ -144,7 +143,7 @@ impl<E: Eye<[Sample], Glimpse>> Exposure<E> {
         some: &[usize],
         wanted: impl Fn(&Sum) -> u32,
         sums: &mut [Sum],
-        touched: Option<&mut [Regions]>,
+        ties: Option<&mut [Ties]>,
     ) -> RayCounts {
         let is_centered = self.sizes.most == 1;
         let samples: Vec<Sample> = some
@@ -155,9 +154,9 @@ impl<E: Eye<[Sample], Glimpse>> Exposure<E> {
             })
             .collect();
         let mut seen = Vec::with_capacity(samples.len());
-        let mut regions = touched.is_some().then(Vec::new);
-        let counts = self.eye.see(&samples, &mut seen, regions.as_mut());
-        let (mut touched, mut next) = (touched, 0);
+        let mut each = ties.is_some().then(Vec::new);
+        let counts = self.eye.see(&samples, &mut seen, each.as_mut());
+        let (mut ties, mut next) = (ties, 0);
         for pixel in some {
             let sum = &mut sums[*pixel];
             let range = next..next + (wanted(sum) - sum.count) as usize;
@@ -165,8 +164,8 @@ impl<E: Eye<[Sample], Glimpse>> Exposure<E> {
             for glimpse in &seen[range.clone()] {
                 sum.add(*glimpse, self.behind);
             }
-            if let (Some(touched), Some(regions)) = (&mut touched, &regions) {
-                touched[*pixel].add(&union(&regions[range]));
+            if let (Some(ties), Some(each)) = (&mut ties, &each) {
+                ties[*pixel].add(&each[range].iter().collect());
             }
         }
         counts
@@ -207,15 +206,15 @@ impl<E: Eye<[Sample], Glimpse>> Painter for Exposure<E> {
         &self,
         spots: &[Spot],
         made: &mut Vec<Sum>,
-        touched: Option<&mut Vec<Regions>>,
+        ties: Option<&mut Vec<Ties>>,
     ) -> RayCounts {
         made.resize(spots.len(), Sum::default());
         let all: Vec<usize> = (0..spots.len()).collect();
-        let touched = touched.map(|touched| {
-            touched.resize(spots.len(), Regions::default());
-            &mut touched[..]
+        let ties = ties.map(|ties| {
+            ties.resize(spots.len(), Ties::default());
+            &mut ties[..]
         });
-        self.add(spots, &all, |_| self.sizes.few, made, touched)
+        self.add(spots, &all, |_| self.sizes.few, made, ties)
     }
 
     /// Adds samples to pixels until their errors are small enough.
@@ -224,10 +223,10 @@ impl<E: Eye<[Sample], Glimpse>> Painter for Exposure<E> {
         spots: &[Spot],
         looks: &Plane<Sum>,
         made: &mut Vec<Stored>,
-        touched: Option<&mut Vec<Regions>>,
+        ties: Option<&mut Vec<Ties>>,
     ) -> RayCounts {
         let mut sums: Vec<Sum> = spots.iter().map(|spot| looks.at(*spot)).collect();
-        let mut regions = touched.as_ref().map(|_| vec![Regions::default(); spots.len()]);
+        let mut each = ties.as_ref().map(|_| vec![Ties::default(); spots.len()]);
         let mut counts = RayCounts::default();
         let differs = |index: usize| {
             let shown = sums[index].shown();
@@ -241,11 +240,11 @@ impl<E: Eye<[Sample], Glimpse>> Painter for Exposure<E> {
                 break;
             }
             let wanted = |sum: &Sum| (2 * sum.count).min(self.sizes.most);
-            counts = counts + self.add(spots, &some, wanted, &mut sums, regions.as_deref_mut());
+            counts = counts + self.add(spots, &some, wanted, &mut sums, each.as_deref_mut());
         }
         made.extend(sums.iter().map(|sum| self.developed(sum).stored()));
-        if let (Some(touched), Some(regions)) = (touched, regions) {
-            touched.extend(regions);
+        if let (Some(ties), Some(each)) = (ties, each) {
+            ties.extend(each);
         }
         counts
     }

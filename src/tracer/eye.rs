@@ -1,7 +1,7 @@
 //! What looks through places of a picture.
 
 use super::RayCounts;
-use super::regions::Regions;
+use super::ties::Ties;
 
 /// An eye: what a sample shows depends on the sample alone.
 pub trait Eye<Samples: ?Sized, Seen>: Sync {
@@ -11,6 +11,6 @@ pub trait Eye<Samples: ?Sized, Seen>: Sync {
         &self,
         samples: &Samples,
         seen: &mut Vec<Seen>,
-        touched: Option<&mut Vec<Regions>>,
+        ties: Option<&mut Vec<Ties>>,
     ) -> RayCounts;
 }

@@ -5,6 +5,7 @@
 //! the same one ray at a time in f64, for tests.
 
 mod antialiasing;
+mod cast;
 mod cells;
 mod exposure;
 mod eye;
@@ -12,6 +13,7 @@ mod footprint;
 #[doc(hidden)]
 pub mod kernels;
 mod lights;
+mod mask;
 mod materials;
 mod optics;
 mod oracle;
@@ -19,15 +21,18 @@ mod phong;
 mod pinhole;
 mod pixel;
 mod plane;
-mod regions;
+mod record;
 mod reuse;
 mod sampling;
 mod sequence;
 mod shelf;
 mod silhouette;
 mod sketch;
+mod slab;
 mod studio;
+mod ties;
 mod tone;
+mod tree;
 mod world;
 
 pub use antialiasing::Antialiasing;

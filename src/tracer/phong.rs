@@ -8,7 +8,7 @@ use super::footprint::{Footprint, Footprints};
 use super::optics::{facing, mirrored, refracted};
 use super::pinhole::Pinhole;
 use super::plane::Spot;
-use super::regions::{Regions, Touched};
+use super::ties::{Ties, Ties8};
 use super::world::{OFFSET, World};
 use crate::lanes::{F32x8, LANES, Mask8, Simd, Task, Vec3x8, dispatch, math};
 use crate::packet::Rays;
@@ -95,8 +95,8 @@ struct Walk<S: Simd> {
     footprints: Footprints<S>,
     /// The width that a ray stands for at distance 1.
     spread: F32x8<S>,
-    /// Which regions it depends on, where that is asked for.
-    touched: Option<Touched<S>>,
+    /// What it depends on, where that is asked for.
+    ties: Option<Ties8<S>>,
 }
 
 impl<'a> Phong<'a> {
@@ -112,13 +112,14 @@ impl<'a> Phong<'a> {
         &self,
         places: &Places,
         start: usize,
-        touched: Option<&mut Vec<Regions>>,
+        ties: Option<&mut Vec<Ties>>,
     ) -> (Vec3x8<S>, Walk<S>) {
         let count = (places.x.len() - start).min(LANES);
         let x = F32x8::load_some(&places.x[start..]);
         let rays = self.pinhole.rays(x, F32x8::load_some(&places.y[start..]));
         let lanes = Mask8::first(count);
         let (zero, one) = (F32x8::splat(0.0), F32x8::splat(1.0));
+        let mut found = ties.is_some().then(Ties8::new);
         let flight = Flight {
             rays,
             lanes,
@@ -127,7 +128,7 @@ impl<'a> Phong<'a> {
             length: zero,
             weight: one,
             index: if self.world.is_transparent() {
-                self.world.index_at(rays.origin, lanes)
+                self.world.index_at(rays.origin, lanes, &mut found)
             } else {
                 one
             },
@@ -137,12 +138,12 @@ impl<'a> Phong<'a> {
             hits: None,
             footprints: Footprints::new(),
             spread: F32x8::splat(self.spread / places.side),
-            touched: touched.is_some().then(Touched::new),
+            ties: found,
         };
         walk.counts.primary = count as u64;
         let color = self.radiance(&flight, &mut walk);
-        if let (Some(touched), Some(found)) = (touched, &walk.touched) {
-            touched.extend_from_slice(&found.store()[..count]);
+        if let (Some(ties), Some(found)) = (ties, &walk.ties) {
+            ties.extend_from_slice(&found.store()[..count]);
         }
         (color, walk)
     }
@@ -158,7 +159,7 @@ impl<'a> Phong<'a> {
                     rays,
                     F32x8::splat(scene.max_distance as f32),
                     *lanes,
-                    &mut walk.touched,
+                    &mut walk.ties,
                 );
                 let hit = *lanes & meeting.lanes();
                 walk.hits = walk.hits.or(Some(hit));
@@ -170,7 +171,7 @@ impl<'a> Phong<'a> {
                 }
                 let length = flight.length + meeting.t;
                 let sight =
-                    world.sight(rays, &meeting, length * walk.spread, hit, &mut walk.touched);
+                    world.sight(rays, &meeting, length * walk.spread, hit, &mut walk.ties);
                 let materials = &world.materials;
                 let direction = rays.direction;
                 let (outward, normal) = facing(sight.normals, direction);
@@ -193,7 +194,7 @@ impl<'a> Phong<'a> {
                     }
                     walk.counts.shadow += u64::from(lit.bits().count_ones());
                     let way = Rays { origin: leaving, direction: towards };
-                    let share = world.transmission(&way, distance, lit, &mut walk.touched);
+                    let share = world.transmission(&way, distance, lit, &mut walk.ties);
                     let lit = lit & share.gt(zero);
                     if !lit.any() {
                         continue;
@@ -226,7 +227,7 @@ impl<'a> Phong<'a> {
                     let clear = deeper & share.gt(zero);
                     if clear.any() {
                         let behind = sight.point - outward * F32x8::splat(OFFSET);
-                        let index = world.index_at(behind, clear);
+                        let index = world.index_at(behind, clear, &mut walk.ties);
                         let (bent, passes_through) =
                             refracted(direction, normal, flight.index / index);
                         // The reflection is total: all that comes this way is thrown back.
@@ -305,7 +306,7 @@ struct Look<'a, 'b, T> {
     eye: &'a Phong<'b>,
     places: &'a Places,
     seen: &'a mut Vec<T>,
-    touched: Option<&'a mut Vec<Regions>>,
+    ties: Option<&'a mut Vec<Ties>>,
 }
 
 impl Task for Look<'_, '_, Shade> {
@@ -313,10 +314,10 @@ impl Task for Look<'_, '_, Shade> {
 
     #[inline(always)]
     fn run<S: Simd>(self) -> RayCounts {
-        let Look { eye, places, seen, mut touched } = self;
+        let Look { eye, places, seen, mut ties } = self;
         let mut counts = RayCounts::default();
         for start in (0..places.x.len()).step_by(LANES) {
-            let (color, walk) = eye.packet::<S>(places, start, touched.as_deref_mut());
+            let (color, walk) = eye.packet::<S>(places, start, ties.as_deref_mut());
             let count = (places.x.len() - start).min(LANES);
             seen.extend_from_slice(&walk.shades(color)[..count]);
             counts = counts + walk.counts;
@@ -330,10 +331,10 @@ impl Task for Look<'_, '_, Seen> {
 
     #[inline(always)]
     fn run<S: Simd>(self) -> RayCounts {
-        let Look { eye, places, seen, mut touched } = self;
+        let Look { eye, places, seen, mut ties } = self;
         let mut counts = RayCounts::default();
         for start in (0..places.x.len()).step_by(LANES) {
-            let (color, walk) = eye.packet::<S>(places, start, touched.as_deref_mut());
+            let (color, walk) = eye.packet::<S>(places, start, ties.as_deref_mut());
             let count = (places.x.len() - start).min(LANES);
             let (shades, footprints) = (walk.shades(color), walk.footprints.store());
             for (shade, footprint) in shades.into_iter().zip(footprints).take(count) {
@@ -350,9 +351,9 @@ impl Eye<Places, Shade> for Phong<'_> {
         &self,
         places: &Places,
         seen: &mut Vec<Shade>,
-        touched: Option<&mut Vec<Regions>>,
+        ties: Option<&mut Vec<Ties>>,
     ) -> RayCounts {
-        dispatch(Look { eye: self, places, seen, touched })
+        dispatch(Look { eye: self, places, seen, ties })
     }
 }
 
@@ -361,8 +362,8 @@ impl Eye<Places, Seen> for Phong<'_> {
         &self,
         places: &Places,
         seen: &mut Vec<Seen>,
-        touched: Option<&mut Vec<Regions>>,
+        ties: Option<&mut Vec<Ties>>,
     ) -> RayCounts {
-        dispatch(Look { eye: self, places, seen, touched })
+        dispatch(Look { eye: self, places, seen, ties })
     }
 }

@@ -5,7 +5,8 @@ use std::ops::Add;
 use rayon::prelude::*;
 
 use super::RayCounts;
-use super::regions::Regions;
+use super::mask::{Mask, TILE};
+use super::ties::Ties;
 
 /// A pixel's column and row.
 pub type Spot = [u32; 2];
@@ -18,12 +19,6 @@ pub struct Plane<T> {
     values: Vec<T>,
 }
 
-/// Rows that a thread has in hand at a time.
-const ROWS: usize = 8;
-
-/// Pixels in blocks of this size make packets of rays that keep together.
-const BLOCK: [usize; 2] = [4, 2];
-
 /// How many pixels are asked for at once.
 const BATCH: usize = 128;
 
@@ -33,8 +28,12 @@ impl<T: Copy + Send + Sync> Plane<T> {
         Plane { width, height, values: vec![value; width as usize * height as usize] }
     }
 
-    pub fn at(&self, [x, y]: Spot) -> T {
-        self.values[y as usize * self.width as usize + x as usize]
+    pub fn at(&self, spot: Spot) -> T {
+        *self.value(spot)
+    }
+
+    pub fn value(&self, [x, y]: Spot) -> &T {
+        &self.values[y as usize * self.width as usize + x as usize]
     }
 
     pub fn values(&self) -> &[T] {
@@ -48,118 +47,55 @@ impl<T: Copy + Send + Sync> Plane<T> {
         rows.flat_map(move |row| columns.clone().map(move |column| self.at([column, row])))
     }
 
-    /// Another plane, of what `make` gives for each pixel's value.
-    pub fn map<R: Copy + Default + Send + Sync>(
-        &self,
-        make: impl Fn(Spot, &T) -> R + Sync,
-    ) -> Plane<R> {
-        let mut made = Plane::new(self.width, self.height, R::default());
-        let width = self.width.max(1) as usize;
-        let rows = made.values.par_chunks_mut(width).zip(self.values.par_chunks(width));
-        rows.enumerate().with_min_len(ROWS).for_each(|(y, (made, values))| {
-            for (x, (made, value)) in made.iter_mut().zip(values).enumerate() {
-                *made = make([x as u32, y as u32], value);
-            }
-        });
-        made
+    pub fn set(&mut self, [x, y]: Spot, value: T) {
+        self.values[y as usize * self.width as usize + x as usize] = value;
     }
 
-    /// Gives some pixels one value.
-    pub fn set(&mut self, wanted: impl Fn(Spot) -> bool + Sync, value: T) {
-        let width = self.width.max(1) as usize;
-        let rows = self.values.par_chunks_mut(width).enumerate().with_min_len(ROWS);
-        rows.for_each(|(y, row)| {
-            for (x, stored) in row.iter_mut().enumerate() {
-                if wanted([x as u32, y as u32]) {
-                    *stored = value;
-                }
-            }
-        });
-    }
-
-    /// The values of some pixels, to be restored later.
-    pub fn saved(&self, wanted: impl Fn(Spot) -> bool) -> Vec<(usize, T)> {
-        let width = self.width.max(1) as usize;
-        let mut saved = Vec::new();
-        for (y, row) in self.values.chunks(width).enumerate() {
-            for (x, value) in row.iter().enumerate() {
-                if wanted([x as u32, y as u32]) {
-                    saved.push((y * width + x, *value));
-                }
-            }
-        }
-        saved
-    }
-
-    pub fn restore(&mut self, saved: Vec<(usize, T)>) {
-        for (index, value) in saved {
-            self.values[index] = value;
-        }
-    }
-
-    /// Gives the `wanted` pixels new values: `make` is told some of them, and appends theirs, and where `regions`
-    /// are kept those that they depend on. Which pixels it is told at once has no meaning.
+    /// Gives the `wanted` pixels new values: `make` is told some of them, and appends theirs, and where `ties`
+    /// are kept what they depend on. Which pixels it is told at once has no meaning.
     pub fn fill(
         &mut self,
-        wanted: impl Fn(Spot) -> bool + Sync,
-        regions: Option<&mut Plane<Regions>>,
-        make: impl Fn(&[Spot], &mut Vec<T>, Option<&mut Vec<Regions>>) -> RayCounts + Sync,
+        wanted: &Mask,
+        ties: Option<&mut Plane<Ties>>,
+        make: impl Fn(&[Spot], &mut Vec<T>, Option<&mut Vec<Ties>>) -> RayCounts + Sync,
     ) -> RayCounts {
         let width = self.width as usize;
         if width == 0 {
             return RayCounts::default();
         }
-        let band = |index: usize, rows: &mut [T], mut regions: Option<&mut [Regions]>| {
-            let top = index * ROWS;
-            let spots = spots(width, top, rows.len() / width, &wanted);
-            let mut made = Vec::with_capacity(BATCH);
-            let mut touched = regions.as_ref().map(|_| Vec::with_capacity(BATCH));
+        let band = |index: usize, rows: &mut [T], mut ties: Option<&mut [Ties]>| {
+            let spots: Vec<Spot> = wanted.spots_of(index as u32).collect();
+            let mut made = Vec::new();
+            let mut tied = ties.as_ref().map(|_| Vec::new());
             let mut counts = RayCounts::default();
-            let place = |[x, y]: Spot| (y as usize - top) * width + x as usize;
+            let place = |[x, y]: Spot| (y % TILE) as usize * width + x as usize;
             for some in spots.chunks(BATCH) {
                 made.clear();
-                touched.iter_mut().for_each(Vec::clear);
-                counts = counts + make(some, &mut made, touched.as_mut());
+                tied.iter_mut().for_each(Vec::clear);
+                counts = counts + make(some, &mut made, tied.as_mut());
                 for (spot, value) in some.iter().zip(&made) {
                     rows[place(*spot)] = *value;
                 }
-                if let (Some(regions), Some(touched)) = (&mut regions, &touched) {
-                    for (spot, touched) in some.iter().zip(touched) {
-                        regions[place(*spot)] = *touched;
+                if let (Some(ties), Some(tied)) = (&mut ties, &tied) {
+                    for (spot, tied) in some.iter().zip(tied) {
+                        ties[place(*spot)] = *tied;
                     }
                 }
             }
             counts
         };
         // What is to be done may all be in a few of them: each may go to another thread.
-        let bands = self.values.par_chunks_mut(ROWS * width).enumerate().with_max_len(1);
+        let rows = TILE as usize * width;
+        let bands = self.values.par_chunks_mut(rows).enumerate().with_max_len(1);
         let sum = RayCounts::default;
-        match regions {
+        match ties {
             None => bands.map(|(index, rows)| band(index, rows, None)).reduce(sum, Add::add),
-            Some(regions) => bands
-                .zip(regions.values.par_chunks_mut(ROWS * width))
-                .map(|((index, rows), regions)| band(index, rows, Some(regions)))
+            Some(ties) => bands
+                .zip(ties.values.par_chunks_mut(rows))
+                .map(|((index, rows), ties)| band(index, rows, Some(ties)))
                 .reduce(sum, Add::add),
         }
     }
-}
-
-/// The wanted pixels of some rows, block by block.
-fn spots(width: usize, top: usize, rows: usize, wanted: impl Fn(Spot) -> bool) -> Vec<Spot> {
-    let mut spots = Vec::new();
-    for y in (0..rows).step_by(BLOCK[1]) {
-        for x in (0..width).step_by(BLOCK[0]) {
-            for row in y..(y + BLOCK[1]).min(rows) {
-                for column in x..(x + BLOCK[0]).min(width) {
-                    let spot = [column as u32, (top + row) as u32];
-                    if wanted(spot) {
-                        spots.push(spot);
-                    }
-                }
-            }
-        }
-    }
-    spots
 }
 
 #[cfg(test)]
@@ -169,14 +105,17 @@ mod tests {
     #[test]
     fn each_wanted_pixel_is_asked_for_once() {
         let mut plane = Plane::new(13, 21, 0);
-        let wanted = |[x, y]: Spot| (x + y) % 3 != 0;
-        let counts = plane.fill(wanted, None, |spots, made, _| {
+        let is_wanted = |[x, y]: Spot| (x + y) % 3 != 0;
+        let all = || (0..13).flat_map(|x| (0..21).map(move |y| [x, y]));
+        let mut wanted = Mask::empty([13, 21]);
+        all().filter(|spot| is_wanted(*spot)).for_each(|spot| wanted.add(spot));
+        let counts = plane.fill(&wanted, None, |spots, made, _| {
             made.extend(spots.iter().map(|[x, y]| 100 * y + x + 1));
             RayCounts { primary: spots.len() as u64, ..RayCounts::default() }
         });
         let mut count = 0;
-        for (x, y) in (0..13).flat_map(|x| (0..21).map(move |y| (x, y))) {
-            let expected = if wanted([x, y]) { 100 * y + x + 1 } else { 0 };
+        for [x, y] in all() {
+            let expected = if is_wanted([x, y]) { 100 * y + x + 1 } else { 0 };
             assert_eq!(plane.at([x, y]), expected, "{x}, {y}");
             count += u64::from(expected > 0);
         }

@@ -1,27 +1,29 @@
 //! Pictures one after the other: what nothing has changed is not traced again.
 //!
-//! What is kept is the picture of all that stood still, with the regions that each pixel depends on. Of the next
-//! scene, bodies that are gone, or stand in other cells, or are painted otherwise change regions; pixels that
-//! depend on any of these are painted anew, and kept. What is new and in no cell, say a piece on its way, is laid
-//! over it: pixels that depend on a region that it takes are painted once more, and not kept. When it still is
-//! there in the next picture, it has come to rest, and is kept like all else.
+//! Of the pictures to come it is known which bodies come and go in them: those are the [`Cast`]. While the first
+//! picture is traced, each ray tells which of them it meets, and which it would meet if they were there. So each
+//! pixel has a set of those whose coming or going may change it, and no other pixel is ever changed by that. What
+//! is kept is the picture of all that stands. What is there in one picture alone, say a piece on its way, is laid
+//! over it: its pixels are painted once more, and not kept.
 
 use image::DynamicImage;
 
+use super::cast::{Cast, change};
 use super::exposure::{Exposure, Sizes, Sum};
+use super::mask::Mask;
 use super::oracle;
 use super::phong::{Phong, Seen};
 use super::pixel::{self, Stored};
 use super::plane::Plane;
-use super::regions::{Regions, Space};
 use super::sampling::Sampling;
 use super::shelf::Shelf;
-use super::silhouette::Silhouette;
-use super::sketch::{Painter, Sketch};
+use super::silhouette::silhouette;
+use super::sketch::{Overlay, Painter, Sketch};
 use super::studio::Studio;
+use super::ties::Ties;
 use super::world::World;
 use super::{Antialiasing, RayCounts};
-use crate::scene::{Object, Scene, repainted};
+use crate::scene::Scene;
 
 /// Traces pictures of one size one after the other.
 pub struct Tracer {
@@ -29,33 +31,23 @@ pub struct Tracer {
     mode: Antialiasing,
     shelf: Shelf,
     /// 1, but in a test.
-    reach: f32,
+    share: f64,
     last: Option<Last>,
 }
 
 /// What is known of the last picture.
 struct Last {
-    /// Without what was laid over it.
+    cast: Cast,
+    /// What stood in it, and which members of the cast are among that.
     scene: Scene,
-    /// What was laid over it.
-    over: Vec<Object>,
-    kept: Option<Kept>,
+    present: u128,
+    kept: Kept,
 }
 
-/// What stood still in the last picture.
+/// What stood in the last picture.
 enum Kept {
     Phong(Sketch<Seen>),
     Studio(Sketch<Sum>),
-}
-
-/// What is to be done for a picture.
-struct Change {
-    /// What stands still in it.
-    scene: Scene,
-    changed: Regions,
-    /// What is laid over it, and the regions that this takes.
-    over: Vec<Object>,
-    taken: Regions,
 }
 
 /// Does something with the painter of a scene.
@@ -67,61 +59,81 @@ trait Work<T> {
 impl Tracer {
     /// For pictures of `width` × `height` pixels.
     pub fn new(width: u32, height: u32, mode: Antialiasing) -> Tracer {
-        Tracer { size: [width, height], mode, shelf: Shelf::default(), reach: 1.0, last: None }
+        Tracer { size: [width, height], mode, shelf: Shelf::default(), share: 1.0, last: None }
     }
 
-    /// For a test: the same, with the envelopes that rays look out for made smaller by the factor `share`. What
+    /// For a test: the same, with the bodies that rays look out for made smaller by the factor `share`. What
     /// changes is then overlooked, and pictures are wrong.
     #[doc(hidden)]
-    pub fn shrunk(self, share: f32) -> Tracer {
-        Tracer { reach: share, ..self }
+    pub fn shrunk(self, share: f64) -> Tracer {
+        Tracer { share, ..self }
     }
 
-    /// Traces `scene` on the threads of the current pool. The picture has an alpha channel (not multiplied into
-    /// its colours) when the scene has no background. It is the same, to the bit, whatever was traced before.
-    pub fn picture(&mut self, scene: &Scene) -> (DynamicImage, RayCounts) {
-        let (pixels, counts) = self.pixels(scene);
+    /// Traces `scene` on the threads of the current pool; those that are `coming` are likely to be asked for
+    /// next, in their order. The picture has an alpha channel (not multiplied into its colours) when the scene
+    /// has no background. It is the same, to the bit, whatever was traced before, and whatever comes.
+    pub fn picture(
+        &mut self,
+        scene: &Scene,
+        coming: impl IntoIterator<Item = Scene>,
+    ) -> (DynamicImage, RayCounts) {
+        let (pixels, counts) = self.pixels(scene, coming.into_iter());
         (pixel::picture(&pixels, scene.background.is_none()), counts)
     }
 
-    fn pixels(&mut self, scene: &Scene) -> (Plane<Stored>, RayCounts) {
-        let last = self.last.take();
-        // A camera that has moved is likely to move on.
-        let is_moving = last.as_ref().is_some_and(|last| last.scene.camera != scene.camera);
-        let known = last.and_then(|last| Some((change(&last, scene)?, last.kept?)));
-        let Some((change, mut kept)) = known else {
-            let keeps = !is_moving;
-            let (kept, counts) = self.whole(scene, keeps);
-            let pixels = kept.picture().clone();
-            let kept = keeps.then_some(kept);
-            self.last = Some(Last { scene: scene.clone(), over: Vec::new(), kept });
-            return (pixels, counts);
+    fn pixels(
+        &mut self,
+        scene: &Scene,
+        mut coming: impl Iterator<Item = Scene>,
+    ) -> (Plane<Stored>, RayCounts) {
+        let next = coming.next();
+        let known = self.last.take().and_then(|last| {
+            let stand = last.cast.stand(scene, last.present, next.as_ref())?;
+            let changed = change((&last.scene, last.present), (&stand.scene, stand.present))?;
+            Some((last, stand, changed))
+        });
+        let (cast, stand, mut kept, mut counts) = match known {
+            Some((Last { cast, mut kept, .. }, stand, changed)) => {
+                let mut counts = RayCounts::default();
+                if !changed.is_empty() {
+                    let work = Repaint(&mut kept, &changed);
+                    counts = self.with_painter(&stand.scene, Some(&cast), work);
+                }
+                (cast, stand, kept, counts)
+            }
+            None => {
+                let cast = Cast::new(scene, next.iter().cloned().chain(coming)).shrunk(self.share);
+                let stand = cast.stand(scene, 0, next.as_ref());
+                let Some(stand) = stand.filter(|_| cast.pictures > 1) else {
+                    let (kept, counts) = self.whole(scene, None);
+                    return (kept.into_picture(), counts);
+                };
+                let (kept, counts) = self.whole(&stand.scene, Some(&cast));
+                (cast, stand, kept, counts)
+            }
         };
-        let mut counts = RayCounts::default();
-        if !change.changed.is_empty() {
-            counts = self.with_painter(&change.scene, Repaint(&mut kept, &change.changed));
+        let mut pixels = kept.picture().clone();
+        if stand.over != 0 {
+            let over = Ties::new(0, stand.over);
+            let (overlay, rays) = self.with_painter(scene, None, Overpaint(&mut kept, &over));
+            overlay.mask.set(&mut pixels, &overlay.values);
+            counts = counts + rays;
         }
-        let mut pixels = None;
-        if !change.taken.is_empty() {
-            let silhouette = Silhouette::new(scene, self.size);
-            let work = Overpaint { kept: &mut kept, silhouette, taken: &change.taken };
-            let (over, rays) = self.with_painter(scene, work);
-            (pixels, counts) = (Some(over), counts + rays);
-        }
-        let pixels = pixels.unwrap_or_else(|| kept.picture().clone());
-        self.last = Some(Last { scene: change.scene, over: change.over, kept: Some(kept) });
+        self.last = Some(Last { cast, scene: stand.scene, present: stand.present, kept });
         (pixels, counts)
     }
 
     /// A whole picture.
-    fn whole(&self, scene: &Scene, keeps: bool) -> (Kept, RayCounts) {
-        let silhouette = Silhouette::new(scene, self.size);
-        self.with_painter(scene, Whole { silhouette, size: self.size, keeps })
+    fn whole(&self, scene: &Scene, cast: Option<&Cast>) -> (Kept, RayCounts) {
+        let others = cast.map_or(&[][..], Cast::members);
+        let some = silhouette(&scene.camera, scene.objects.iter().chain(others), self.size);
+        let work = Whole { some, size: self.size, keeps: cast.is_some() };
+        self.with_painter(scene, cast, work)
     }
 
-    fn with_painter<T>(&self, scene: &Scene, work: impl Work<T>) -> T {
-        let space = Space::new(scene.cells).shrunk(self.reach);
-        let world = World::new(scene, space, &self.shelf);
+    /// Has something done with the painter of `scene`, who tells what depends on the members of `cast`.
+    fn with_painter<T>(&self, scene: &Scene, cast: Option<&Cast>, work: impl Work<T>) -> T {
+        let world = World::new(scene, &self.shelf, cast);
         match &scene.room {
             None => {
                 let eye = Phong::new(world, self.size);
@@ -143,7 +155,7 @@ pub fn render(
     height: u32,
     mode: Antialiasing,
 ) -> (DynamicImage, RayCounts) {
-    let (kept, counts) = Tracer::new(width, height, mode).whole(scene, false);
+    let (kept, counts) = Tracer::new(width, height, mode).whole(scene, None);
     (pixel::picture(kept.picture(), scene.background.is_none()), counts)
 }
 
@@ -155,7 +167,7 @@ pub fn render_by_oracle(
     mode: Antialiasing,
 ) -> (DynamicImage, RayCounts) {
     let size = [width, height];
-    let work = Whole { silhouette: Silhouette::everywhere(size), size, keeps: false };
+    let work = Whole { some: Mask::full(size), size, keeps: false };
     let (kept, counts) = match &scene.room {
         None => work.phong(&Sampling::new(oracle::Phong::new(scene, size), scene, mode)),
         Some(room) => {
@@ -174,27 +186,35 @@ impl Kept {
             Kept::Studio(sketch) => &sketch.picture,
         }
     }
+
+    fn into_picture(self) -> Plane<Stored> {
+        match self {
+            Kept::Phong(sketch) => sketch.picture,
+            Kept::Studio(sketch) => sketch.picture,
+        }
+    }
 }
 
 struct Whole {
-    silhouette: Silhouette,
+    /// The pixels that can show a body.
+    some: Mask,
     size: [u32; 2],
     keeps: bool,
 }
 
 impl Work<(Kept, RayCounts)> for Whole {
     fn phong(self, painter: &impl Painter<Look = Seen>) -> (Kept, RayCounts) {
-        let (sketch, counts) = Sketch::new(painter, &self.silhouette, self.size, self.keeps);
+        let (sketch, counts) = Sketch::new(painter, &self.some, self.size, self.keeps);
         (Kept::Phong(sketch), counts)
     }
 
     fn studio(self, painter: &impl Painter<Look = Sum>) -> (Kept, RayCounts) {
-        let (sketch, counts) = Sketch::new(painter, &self.silhouette, self.size, self.keeps);
+        let (sketch, counts) = Sketch::new(painter, &self.some, self.size, self.keeps);
         (Kept::Studio(sketch), counts)
     }
 }
 
-struct Repaint<'a>(&'a mut Kept, &'a Regions);
+struct Repaint<'a>(&'a mut Kept, &'a Ties);
 
 impl Work<RayCounts> for Repaint<'_> {
     fn phong(self, painter: &impl Painter<Look = Seen>) -> RayCounts {
@@ -212,100 +232,20 @@ impl Work<RayCounts> for Repaint<'_> {
     }
 }
 
-struct Overpaint<'a> {
-    kept: &'a mut Kept,
-    silhouette: Silhouette,
-    taken: &'a Regions,
-}
+struct Overpaint<'a>(&'a mut Kept, &'a Ties);
 
-impl Work<(Plane<Stored>, RayCounts)> for Overpaint<'_> {
-    fn phong(self, painter: &impl Painter<Look = Seen>) -> (Plane<Stored>, RayCounts) {
-        match self.kept {
-            Kept::Phong(sketch) => sketch.overpaint(painter, &self.silhouette, self.taken),
-            Kept::Studio(sketch) => (sketch.picture.clone(), RayCounts::default()),
+impl Work<(Overlay, RayCounts)> for Overpaint<'_> {
+    fn phong(self, painter: &impl Painter<Look = Seen>) -> (Overlay, RayCounts) {
+        match self.0 {
+            Kept::Phong(sketch) => sketch.overpaint(painter, self.1),
+            Kept::Studio(_) => Default::default(),
         }
     }
 
-    fn studio(self, painter: &impl Painter<Look = Sum>) -> (Plane<Stored>, RayCounts) {
-        match self.kept {
-            Kept::Studio(sketch) => sketch.overpaint(painter, &self.silhouette, self.taken),
-            Kept::Phong(sketch) => (sketch.picture.clone(), RayCounts::default()),
+    fn studio(self, painter: &impl Painter<Look = Sum>) -> (Overlay, RayCounts) {
+        match self.0 {
+            Kept::Studio(sketch) => sketch.overpaint(painter, self.1),
+            Kept::Phong(_) => Default::default(),
         }
-    }
-}
-
-/// What is to be done for `scene` after the last picture; `None` where nothing of that can be used.
-fn change(last: &Last, scene: &Scene) -> Option<Change> {
-    let before = &last.scene;
-    let is_alike = before.camera == scene.camera
-        && before.cells == scene.cells
-        && before.lights == scene.lights
-        && before.room == scene.room
-        && before.background == scene.background
-        && before.max_depth == scene.max_depth
-        && before.min_weight == scene.min_weight
-        && before.max_distance == scene.max_distance
-        && before.snell_index == scene.snell_index;
-    if !is_alike {
-        return None;
-    }
-    let space = Space::new(scene.cells);
-    let mut changed = Regions::default();
-    let mut gone: Vec<&Object> = before.objects.iter().collect();
-    // Those that are there still, each with whether it is; others are new.
-    let mut fresh = Vec::new();
-    let mut still = Vec::with_capacity(scene.objects.len());
-    for object in &scene.objects {
-        let found = gone.iter().position(|old| old.is_same_body(object));
-        still.push(match found.map(|index| gone.remove(index)) {
-            None => {
-                fresh.push(object);
-                false
-            }
-            Some(old) => {
-                if !old.is_same(object) {
-                    changed.add(&space.regions(object));
-                }
-                changed.add(&painted_otherwise(old, object, &space));
-                true
-            }
-        });
-    }
-    gone.iter().for_each(|old| changed.add(&space.regions(old)));
-    // What is in a cell stands; and what changes nothing more, or was there before, is at rest.
-    let rests = |object: &Object, changed: &Regions| {
-        space.cell(object).is_some()
-            || space.regions(object).are_within(changed)
-            || last.over.iter().any(|old| old.is_same(object))
-    };
-    let mut stands = Vec::with_capacity(fresh.len());
-    for object in fresh {
-        let stays = rests(object, &changed);
-        if stays {
-            changed.add(&space.regions(object));
-        }
-        stands.push(stays);
-    }
-    let (mut over, mut taken) = (Vec::new(), Regions::default());
-    let mut stands = stands.into_iter();
-    let objects = scene.objects.iter().zip(still).filter(|(object, still)| {
-        if *still || stands.next() == Some(true) {
-            return true;
-        }
-        taken.add(&space.regions(object));
-        over.push((*object).clone());
-        false
-    });
-    let objects = objects.map(|(object, _)| object.clone()).collect();
-    let scene = Scene { objects, ..scene.clone() };
-    Some(Change { scene, changed, over, taken })
-}
-
-/// The squares that are painted otherwise.
-fn painted_otherwise(old: &Object, new: &Object, space: &Space) -> Regions {
-    match (&old.paint, &new.paint) {
-        (None, None) => Regions::default(),
-        (Some(old), Some(new)) => Regions::of_cells(repainted(old, new)),
-        _ => space.regions(new),
     }
 }

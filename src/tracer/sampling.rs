@@ -7,7 +7,7 @@ use super::footprint::Footprint;
 use super::phong::{Places, Seen, Shade};
 use super::pixel::{Pixel, Stored};
 use super::plane::{Plane, Spot};
-use super::regions::Regions;
+use super::ties::Ties;
 use super::sketch::Painter;
 use super::{Antialiasing, RayCounts};
 use crate::scene::Scene;
@@ -45,19 +45,19 @@ impl<E: Eye<Places, Seen> + Eye<Places, Shade>> Sampling<E> {
         &self,
         spots: &[Spot],
         made: &mut Vec<Stored>,
-        touched: Option<&mut Vec<Regions>>,
+        ties: Option<&mut Vec<Ties>>,
     ) -> RayCounts {
         let side = self.side();
         let parts = (side * side) as usize;
         let mut seen: Vec<Shade> = Vec::with_capacity(spots.len() * parts);
-        let mut regions = touched.is_some().then(Vec::new);
-        let counts = self.eye.see(&Places::new(spots, side), &mut seen, regions.as_mut());
+        let mut each = ties.is_some().then(Vec::new);
+        let counts = self.eye.see(&Places::new(spots, side), &mut seen, each.as_mut());
         made.extend(seen.chunks_exact(parts).map(|seen| {
             let sum = seen.iter().fold(Pixel::default(), |sum, seen| sum + self.pixel(seen));
             (sum / f64::from(side * side)).stored()
         }));
-        if let (Some(touched), Some(regions)) = (touched, regions) {
-            touched.extend(regions.chunks_exact(parts).map(union));
+        if let (Some(ties), Some(each)) = (ties, each) {
+            ties.extend(each.chunks_exact(parts).map(Ties::from_iter));
         }
         counts
     }
@@ -86,9 +86,9 @@ impl<E: Eye<Places, Seen> + Eye<Places, Shade>> Painter for Sampling<E> {
         &self,
         spots: &[Spot],
         made: &mut Vec<Seen>,
-        touched: Option<&mut Vec<Regions>>,
+        ties: Option<&mut Vec<Ties>>,
     ) -> RayCounts {
-        self.eye.see(&Places::new(spots, 1), made, touched)
+        self.eye.see(&Places::new(spots, 1), made, ties)
     }
 
     fn finish(
@@ -96,10 +96,10 @@ impl<E: Eye<Places, Seen> + Eye<Places, Shade>> Painter for Sampling<E> {
         spots: &[Spot],
         looks: &Plane<Seen>,
         made: &mut Vec<Stored>,
-        touched: Option<&mut Vec<Regions>>,
+        ties: Option<&mut Vec<Ties>>,
     ) -> RayCounts {
         let Antialiasing::Adaptive { threshold, .. } = self.mode else {
-            return self.means(spots, made, touched);
+            return self.means(spots, made, ties);
         };
         let differs = |spot: &Spot| {
             let here = looks.at(*spot);
@@ -109,18 +109,18 @@ impl<E: Eye<Places, Seen> + Eye<Places, Shade>> Painter for Sampling<E> {
         let some: Vec<Spot> =
             spots.iter().zip(&more).filter(|(_, more)| **more).map(|(spot, _)| *spot).collect();
         let mut means = Vec::with_capacity(some.len());
-        let mut regions = touched.is_some().then(Vec::new);
-        let counts = self.means(&some, &mut means, regions.as_mut());
-        let (mut means, mut regions) = (means.into_iter(), regions.into_iter().flatten());
-        let each = || spots.iter().zip(&more);
+        let mut each = ties.is_some().then(Vec::new);
+        let counts = self.means(&some, &mut means, each.as_mut());
+        let (mut means, mut each) = (means.into_iter(), each.into_iter().flatten());
+        let pairs = || spots.iter().zip(&more);
         let own = |spot: &Spot| self.pixel(&looks.at(*spot).shade).stored();
-        made.extend(each().map(|(spot, more)| {
+        made.extend(pairs().map(|(spot, more)| {
             let mean = if *more { means.next() } else { None };
             mean.unwrap_or_else(|| own(spot))
         }));
-        if let Some(touched) = touched {
-            let next = |more: &bool| if *more { regions.next() } else { None };
-            touched.extend(more.iter().map(next).map(Option::unwrap_or_default));
+        if let Some(ties) = ties {
+            let next = |more: &bool| if *more { each.next() } else { None };
+            ties.extend(more.iter().map(next).map(Option::unwrap_or_default));
         }
         counts
     }
@@ -128,12 +128,4 @@ impl<E: Eye<Places, Seen> + Eye<Places, Shade>> Painter for Sampling<E> {
     fn rays(&self) -> u64 {
         if self.looks_first() { 1 } else { u64::from(self.side()).pow(2) }
     }
-}
-
-/// All regions of several rays.
-pub fn union(regions: &[Regions]) -> Regions {
-    regions.iter().fold(Regions::default(), |mut all, regions| {
-        all.add(regions);
-        all
-    })
 }

@@ -2,61 +2,33 @@
 
 use glam::DVec3;
 
-use super::plane::Spot;
+use super::mask::{Mask, TILE};
 use crate::geometry::{Bounds, Solid};
-use crate::scene::{Camera, Projection, Scene};
+use crate::scene::{Camera, Object, Projection};
 
-/// Tiles of a picture, and which of them may show a body.
-pub struct Silhouette {
-    columns: usize,
-    /// By tile, row by row.
-    may_show: Vec<bool>,
-}
-
-/// A tile's width and height in pixels.
-const TILE: u32 = 8;
-
-impl Silhouette {
-    /// Of `scene` in a picture of `size`: all that lies within the projected box of any body.
-    pub fn new(scene: &Scene, size: [u32; 2]) -> Silhouette {
-        let [columns, rows] = size.map(|side| side.div_ceil(TILE) as usize);
-        let mut silhouette = Silhouette { columns, may_show: vec![false; columns * rows] };
-        for object in &scene.objects {
-            let seen = extent(&scene.camera, object.body.bounds(), size);
-            let Some([left, top, right, bottom]) = seen else {
-                silhouette.may_show.fill(true);
-                break;
-            };
-            let tiles = |low: f64, high: f64, count: usize| {
-                // A hair more, for rounding.
-                let [low, high] = [low - 0.1, high + 0.1].map(|at| at / f64::from(TILE));
-                let index = |at: f64| at.floor().clamp(0.0, count as f64) as usize;
-                index(low)..index(high + 1.0)
-            };
-            for row in tiles(top, bottom, rows) {
-                let tiles = tiles(left, right, columns);
-                silhouette.may_show[row * columns..][tiles].fill(true);
-            }
+/// The pixels of a picture of `size` in which some of `objects` may be seen: all tiles that the projected box of
+/// any of them meets.
+pub fn silhouette<'a>(
+    camera: &Camera,
+    objects: impl IntoIterator<Item = &'a Object>,
+    size: [u32; 2],
+) -> Mask {
+    let mut mask = Mask::empty(size);
+    for object in objects {
+        let Some([left, top, right, bottom]) = extent(camera, object.body.bounds(), size) else {
+            return Mask::full(size);
+        };
+        let tiles = |low: f64, high: f64, length: u32| {
+            // A hair more, for rounding.
+            let [low, high] = [low - 0.1, high + 0.1].map(|at| at / f64::from(TILE));
+            let index = |at: f64| at.floor().clamp(0.0, f64::from(length.div_ceil(TILE))) as u32;
+            index(low)..index(high + 1.0)
+        };
+        for row in tiles(top, bottom, size[1]) {
+            tiles(left, right, size[0]).for_each(|column| mask.add_tile([column, row]));
         }
-        silhouette
     }
-
-    /// Of something that may be anywhere.
-    pub fn everywhere([width, height]: [u32; 2]) -> Silhouette {
-        let [columns, rows] = [width, height].map(|side| side.div_ceil(TILE) as usize);
-        Silhouette { columns, may_show: vec![true; columns * rows] }
-    }
-
-    /// How many pixels of a picture of `size` show nothing.
-    pub fn empty(&self, [width, height]: [u32; 2]) -> u64 {
-        let row = |y: u32| (0..width).filter(|x| !self.may_show([*x, y])).count() as u64;
-        (0..height).map(row).sum()
-    }
-
-    /// Whether a pixel may show a body.
-    pub fn may_show(&self, [x, y]: Spot) -> bool {
-        self.may_show[(y / TILE) as usize * self.columns + (x / TILE) as usize]
-    }
+    mask
 }
 
 /// The left, upper, right and lower end of what `bounds` fill of a picture of `size`, in pixels; `None` where

@@ -2,9 +2,10 @@
 
 use super::RayCounts;
 use super::pixel::Stored;
+use super::mask::Mask;
 use super::plane::{Plane, Spot};
-use super::regions::Regions;
-use super::silhouette::Silhouette;
+use super::record::Record;
+use super::ties::Ties;
 
 /// A way to paint pixels: a first look at each, and then what it shows, which may depend on the first looks at
 /// the pixels round it.
@@ -17,22 +18,22 @@ pub trait Painter: Sync {
     /// Whether there is a first look at all.
     fn looks_first(&self) -> bool;
 
-    /// Appends the first looks at pixels, and if it is asked for the regions that they depend on.
+    /// Appends the first looks at pixels, and if it is asked for what they depend on.
     fn look(
         &self,
         spots: &[Spot],
         made: &mut Vec<Self::Look>,
-        touched: Option<&mut Vec<Regions>>,
+        ties: Option<&mut Vec<Ties>>,
     ) -> RayCounts;
 
-    /// Appends what pixels show, and if it is asked for the regions that this depends on besides their first
-    /// looks' and those of the pixels round them.
+    /// Appends what pixels show, and if it is asked for what this depends on besides their first
+    /// looks and those of the pixels round them.
     fn finish(
         &self,
         spots: &[Spot],
         looks: &Plane<Self::Look>,
         made: &mut Vec<Stored>,
-        touched: Option<&mut Vec<Regions>>,
+        ties: Option<&mut Vec<Ties>>,
     ) -> RayCounts;
 
     /// Rays that a pixel counts for where no body can be.
@@ -43,108 +44,109 @@ pub trait Painter: Sync {
 pub struct Sketch<L> {
     looks: Plane<L>,
     pub picture: Plane<Stored>,
-    /// What pixels depend on: their first looks, and all of it; if that is kept.
-    regions: Option<[Plane<Regions>; 2]>,
+    /// What pixels depend on: their first looks, and all the rest of it; if that is kept.
+    ties: Option<[Record; 2]>,
+}
+
+/// Pixels that look otherwise for a while.
+#[derive(Default)]
+pub struct Overlay {
+    pub mask: Mask,
+    /// What they show, in their order.
+    pub values: Vec<Stored>,
 }
 
 impl<L: Copy + Send + Sync> Sketch<L> {
-    /// Paints a whole picture of `size`; only what `silhouette` marks can show a body. What pixels depend on is
+    /// Paints a whole picture of `size`, of which only `some` pixels can show a body. What pixels depend on is
     /// kept for later if `keeps`.
     pub fn new(
         painter: &impl Painter<Look = L>,
-        silhouette: &Silhouette,
-        [width, height]: [u32; 2],
+        some: &Mask,
+        size @ [width, height]: [u32; 2],
         keeps: bool,
     ) -> (Sketch<L>, RayCounts) {
         let (look, stored) = painter.nothing();
-        let looked = if painter.looks_first() { [width, height] } else { [0, 0] };
-        let regions = |[width, height]: [u32; 2]| Plane::new(width, height, Regions::default());
+        let looked @ [columns, rows] = if painter.looks_first() { size } else { [0, 0] };
         let mut sketch = Sketch {
-            looks: Plane::new(looked[0], looked[1], look),
+            looks: Plane::new(columns, rows, look),
             picture: Plane::new(width, height, stored),
-            regions: keeps.then(|| [regions(looked), regions([width, height])]),
+            ties: keeps.then(|| [Record::new(looked), Record::new(size)]),
         };
-        // Rays that meet nothing tell where they have passed all the same.
-        let is_asked = |spot: Spot| keeps || silhouette.may_show(spot);
-        let counts = sketch.paint(painter, is_asked, is_asked);
-        let skipped = if keeps { 0 } else { silhouette.empty([width, height]) * painter.rays() };
+        let counts = sketch.paint(painter, some, some);
+        let skipped = (u64::from(width) * u64::from(height) - some.count()) * painter.rays();
         (sketch, counts + RayCounts { primary: skipped, ..RayCounts::default() })
     }
 
-    /// Paints anew what depends on `changed` regions.
-    pub fn repaint(&mut self, painter: &impl Painter<Look = L>, changed: &Regions) -> RayCounts {
-        let Some([first, all]) = self.stale(changed) else {
-            return RayCounts::default();
-        };
-        self.paint(painter, |spot| first.at(spot), |spot| all.at(spot))
+    /// Paints anew what depends on `changed`.
+    pub fn repaint(&mut self, painter: &impl Painter<Look = L>, changed: &Ties) -> RayCounts {
+        let [first, all] = self.stale(changed);
+        self.paint(painter, &first, &all)
     }
 
-    /// What the picture is when something is laid over it that takes the regions `over`, without a change to what
-    /// is kept.
+    /// What the picture is when `over` is laid over it, without a change to what is kept.
     pub fn overpaint(
         &mut self,
         painter: &impl Painter<Look = L>,
-        silhouette: &Silhouette,
-        over: &Regions,
-    ) -> (Plane<Stored>, RayCounts) {
-        let Some([first, all]) = self.stale(over) else {
-            return (self.picture.clone(), RayCounts::default());
-        };
-        let (looks, picture) = (self.looks.saved(|spot| first.at(spot)), self.picture.clone());
-        let regions = self.regions.take();
-        let (nothing, empty) = painter.nothing();
-        self.looks.set(|spot| first.at(spot) && !silhouette.may_show(spot), nothing);
-        self.picture.set(|spot| all.at(spot) && !silhouette.may_show(spot), empty);
-        let counts = self.paint(
-            painter,
-            |spot| first.at(spot) && silhouette.may_show(spot),
-            |spot| all.at(spot) && silhouette.may_show(spot),
-        );
-        self.regions = regions;
-        self.looks.restore(looks);
-        (std::mem::replace(&mut self.picture, picture), counts)
+        over: &Ties,
+    ) -> (Overlay, RayCounts) {
+        let [first, mask] = self.stale(over);
+        let (looks, picture) = (first.values(&self.looks), mask.values(&self.picture));
+        let ties = self.ties.take();
+        let counts = self.paint(painter, &first, &mask);
+        self.ties = ties;
+        let values = mask.values(&self.picture);
+        first.set(&mut self.looks, &looks);
+        mask.set(&mut self.picture, &picture);
+        (Overlay { mask, values }, counts)
     }
 
-    /// The pixels whose first look depends on `changed`, and those that are to be painted; `None` if there are
-    /// none.
-    fn stale(&self, changed: &Regions) -> Option<[Plane<bool>; 2]> {
-        let [first, all] = self.regions.as_ref()?;
-        if changed.is_empty() {
-            return None;
-        }
-        let changed = changed.words();
-        let looks = first.map(|_, regions| regions.meet(&changed));
-        let pixels = if looks.width == 0 {
-            all.map(|_, regions| regions.meet(&changed))
-        } else {
-            all.map(|spot, regions| regions.meet(&changed) || looks.round(spot).any(|is| is))
+    /// The pixels whose first look depends on `changed`, and those that are to be painted.
+    fn stale(&self, changed: &Ties) -> [Mask; 2] {
+        let Some([first, all]) = &self.ties else {
+            let full = |width, height| Mask::full([width, height]);
+            return [
+                full(self.looks.width, self.looks.height),
+                full(self.picture.width, self.picture.height),
+            ];
         };
-        Some([looks, pixels])
+        let (looks, mut pixels) = (first.stale(changed), all.stale(changed));
+        if !looks.is_empty() {
+            pixels.add_all(&looks.grown());
+        }
+        [looks, pixels]
     }
 
     /// Paints some pixels: first looks at some, then what others show.
     fn paint(
         &mut self,
         painter: &impl Painter<Look = L>,
-        looks: impl Fn(Spot) -> bool + Sync,
-        pixels: impl Fn(Spot) -> bool + Sync,
+        looks: &Mask,
+        pixels: &Mask,
     ) -> RayCounts {
-        let [mut first, mut all] = match self.regions.take() {
-            Some([first, all]) => [Some(first), Some(all)],
-            None => [None, None],
-        };
+        let (first, all) = self.ties.as_mut().map(|[first, all]| (first, all)).unzip();
         let mut counts = RayCounts::default();
         if painter.looks_first() {
-            counts = self.looks.fill(looks, first.as_mut(), |spots, made, touched| {
-                painter.look(spots, made, touched)
+            counts = fill(&mut self.looks, looks, first, |spots, made, ties| {
+                painter.look(spots, made, ties)
             });
         }
         let seen = &self.looks;
-        counts = counts
-            + self.picture.fill(pixels, all.as_mut(), |spots, made, touched| {
-                painter.finish(spots, seen, made, touched)
-            });
-        self.regions = first.zip(all).map(|(first, all)| [first, all]);
-        counts
+        let finish = |spots: &[Spot], made: &mut Vec<Stored>, ties: Option<&mut Vec<Ties>>| {
+            painter.finish(spots, seen, made, ties)
+        };
+        counts + fill(&mut self.picture, pixels, all, finish)
     }
+}
+
+/// Fills some of a plane's pixels, with a record of what they depend on.
+fn fill<T: Copy + Send + Sync>(
+    plane: &mut Plane<T>,
+    wanted: &Mask,
+    mut record: Option<&mut Record>,
+    make: impl Fn(&[Spot], &mut Vec<T>, Option<&mut Vec<Ties>>) -> RayCounts + Sync,
+) -> RayCounts {
+    let ties = record.as_mut().map(|record| &mut record.pixels);
+    let counts = plane.fill(wanted, ties, make);
+    record.into_iter().for_each(|record| record.update(wanted));
+    counts
 }

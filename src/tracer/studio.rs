@@ -12,7 +12,7 @@ use super::eye::Eye;
 use super::lights::Lights;
 use super::optics::{facing, fresnel, grazing, mirrored, refracted};
 use super::pinhole::Pinhole;
-use super::regions::{Regions, Touched};
+use super::ties::{Ties, Ties8};
 use super::sequence::{Sequence, Sequences};
 use super::world::{Meeting, OFFSET, World};
 use crate::lanes::{F32x8, LANES, Mask8, Simd, Task, U32x8, Vec3x8, dispatch, math};
@@ -101,16 +101,16 @@ struct Meet<S: Simd> {
 struct Draw<S: Simd> {
     numbers: Sequences<S>,
     counts: RayCounts,
-    /// Which regions they depend on, where that is asked for.
-    touched: Option<Touched<S>>,
+    /// What they depend on, where that is asked for.
+    ties: Option<Ties8<S>>,
 }
 
 impl<S: Simd> Draw<S> {
-    /// Appends the regions of the first few lanes, where they are asked for.
+    /// Appends what the first few lanes depend on, where they are asked for.
     #[inline(always)]
-    fn tell(&self, count: usize, touched: Option<&mut Vec<Regions>>) {
-        if let (Some(touched), Some(found)) = (touched, &self.touched) {
-            touched.extend_from_slice(&found.store()[..count]);
+    fn tell(&self, count: usize, ties: Option<&mut Vec<Ties>>) {
+        if let (Some(ties), Some(found)) = (ties, &self.ties) {
+            ties.extend_from_slice(&found.store()[..count]);
         }
     }
 }
@@ -136,7 +136,7 @@ impl<'a> Studio<'a> {
         &self,
         samples: &[Sample],
         seen: &mut Vec<Glimpse>,
-        touched: Option<&mut Vec<Regions>>,
+        ties: Option<&mut Vec<Ties>>,
     ) -> RayCounts {
         let sample = |lane: usize| samples[lane.min(samples.len() - 1)];
         let sample: [Sample; 8] = std::array::from_fn(sample);
@@ -152,8 +152,9 @@ impl<'a> Studio<'a> {
             self.pinhole.rays(x.i32_to_f32() + dx, y.i32_to_f32() + dy)
         };
         let (zero, one) = (F32x8::splat(0.0), F32x8::splat(1.0));
+        let mut found = ties.is_some().then(Ties8::new);
         let index =
-            if self.world.is_transparent() { self.world.index_at(rays.origin, lanes) } else { one };
+            if self.world.is_transparent() { self.world.index_at(rays.origin, lanes, &mut found) } else { one };
         let flight = Flight {
             rays,
             lanes,
@@ -166,13 +167,13 @@ impl<'a> Studio<'a> {
         let mut draw = Draw {
             numbers,
             counts: RayCounts { primary: samples.len() as u64, ..RayCounts::default() },
-            touched: touched.is_some().then(Touched::new),
+            ties: found,
         };
         let meeting = self.nearest(&rays, lanes, &mut draw);
         let hit = lanes & meeting.lanes();
         if !hit.any() {
             seen.extend(samples.iter().map(|_| Glimpse::default()));
-            draw.tell(samples.len(), touched);
+            draw.tell(samples.len(), ties);
             return draw.counts;
         }
         let light = self.light(&Flight { lanes: hit, ..flight }, &meeting, &mut draw);
@@ -186,7 +187,7 @@ impl<'a> Studio<'a> {
             let is_hit = hit >> lane & 1 == 1;
             if is_hit { Glimpse::new(light[lane], cover[lane]) } else { Glimpse::default() }
         }));
-        draw.tell(samples.len(), touched);
+        draw.tell(samples.len(), ties);
         draw.counts
     }
 
@@ -209,7 +210,7 @@ impl<'a> Studio<'a> {
     #[inline(always)]
     fn nearest<S: Simd>(&self, rays: &Rays<S>, lanes: Mask8<S>, draw: &mut Draw<S>) -> Meeting<S> {
         let farthest = F32x8::splat(self.world.scene.max_distance as f32);
-        self.world.nearest(rays, farthest, lanes, &mut draw.touched)
+        self.world.nearest(rays, farthest, lanes, &mut draw.ties)
     }
 
     /// The light that comes back along rays that meet something.
@@ -226,7 +227,7 @@ impl<'a> Studio<'a> {
                 let Flight { rays, lanes, .. } = flight;
                 let (world, materials) = (&self.world, &self.world.materials);
                 let seen = (flight.length + meeting.t) * flight.spread;
-                let sight = world.sight(rays, meeting, seen, *lanes, &mut draw.touched);
+                let sight = world.sight(rays, meeting, seen, *lanes, &mut draw.ties);
                 let (outward, normal) = facing(sight.normals, rays.direction);
                 let meet = Meet {
                     distance: meeting.t,
@@ -308,7 +309,7 @@ impl<'a> Studio<'a> {
                         draw.counts.shadow += u64::from(asking.bits().count_ones());
                         let way = Rays { origin: meet.leaving, direction: towards };
                         let open =
-                            self.world.transmission(&way, distance, asking, &mut draw.touched);
+                            self.world.transmission(&way, distance, asking, &mut draw.ties);
                         share = asking.select(share * open, share);
                     }
                     sum += Vec3x8::splat(light.color) * share;
@@ -338,7 +339,7 @@ impl<'a> Studio<'a> {
         }
         draw.counts.shadow += u64::from(asking.bits().count_ones());
         let way = Rays { origin: meet.leaving, direction };
-        let found = self.world.nearest(&way, F32x8::splat(HIDES as f32), asking, &mut draw.touched);
+        let found = self.world.nearest(&way, F32x8::splat(HIDES as f32), asking, &mut draw.ties);
         let hidden = asking & found.lanes();
         let bounce = F32x8::splat(self.lights.bounce);
         let ground = Vec3x8::grey(F32x8::splat(FAR_GROUND as f32) * bounce);
@@ -426,7 +427,7 @@ impl<'a> Studio<'a> {
                 let (zero, one) = (F32x8::splat(0.0), F32x8::splat(1.0));
                 let clearness = world.materials.transparency(meet.material);
                 let behind = meet.point - meet.outward * F32x8::splat(OFFSET);
-                let index = world.index_at(behind, lanes);
+                let index = world.index_at(behind, lanes, &mut draw.ties);
                 let ratio = flight.index / index;
                 let direction = flight.rays.direction;
                 let cosine = -direction.dot(meet.normal);
@@ -499,28 +500,28 @@ impl Eye<[Sample], Glimpse> for Studio<'_> {
         &self,
         samples: &[Sample],
         seen: &mut Vec<Glimpse>,
-        touched: Option<&mut Vec<Regions>>,
+        ties: Option<&mut Vec<Ties>>,
     ) -> RayCounts {
         struct See<'a, 'b>(
             &'a Studio<'b>,
             &'a [Sample],
             &'a mut Vec<Glimpse>,
-            Option<&'a mut Vec<Regions>>,
+            Option<&'a mut Vec<Ties>>,
         );
         impl Task for See<'_, '_> {
             type Output = RayCounts;
 
             #[inline(always)]
             fn run<S: Simd>(self) -> RayCounts {
-                let See(eye, samples, seen, mut touched) = self;
+                let See(eye, samples, seen, mut ties) = self;
                 let mut counts = RayCounts::default();
                 for packet in samples.chunks(LANES) {
-                    counts = counts + eye.packet::<S>(packet, seen, touched.as_deref_mut());
+                    counts = counts + eye.packet::<S>(packet, seen, ties.as_deref_mut());
                 }
                 counts
             }
         }
-        dispatch(See(self, samples, seen, touched))
+        dispatch(See(self, samples, seen, ties))
     }
 }
 

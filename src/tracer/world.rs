@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use glam::{DMat3, Vec2, Vec3};
+use glam::{DMat3, DVec3, Vec2, Vec3};
 
 use super::cells::Grid;
-use super::regions::{Regions, Space, Touched, rounded};
+use super::cast::Cast;
 use crate::geometry::{Bounds, Solid as _};
 use crate::lanes::{F32x8, Mask8, Simd, U32x8, Vec3x8};
 use crate::packet::solids::{Crossing, Normals, Solid};
@@ -15,6 +15,8 @@ use crate::scene::{Object, Scene};
 
 use super::materials::Materials;
 use super::shelf::Shelf;
+use super::ties::{NO_MEMBER, Ties8};
+use super::tree::Tree;
 
 /// How far off a surface its secondary rays begin, along the normal, in world units: enough not
 /// to meet the surface itself, too little to miss what touches it.
@@ -48,8 +50,6 @@ struct Body {
     is_endless: bool,
     /// Whether squares are painted on it.
     is_painted: bool,
-    /// The regions that it takes.
-    regions: Regions,
 }
 
 /// A level rectangle at the top of a body; see [`Object::roof`].
@@ -69,8 +69,6 @@ pub struct World<'a> {
     /// What is opaque first: of surfaces in one place that of the first body is seen.
     bodies: Vec<Body>,
     grid: Grid,
-    /// How the space is divided.
-    space: Space,
     /// What stands in no cell, and what has no end.
     loose: Vec<usize>,
     endless: Vec<usize>,
@@ -78,6 +76,17 @@ pub struct World<'a> {
     transparent: Vec<usize>,
     /// Numbers by which bodies are told apart, whatever else there is.
     names: Vec<u32>,
+    /// Where it is asked what pixels depend on: the bodies' numbers in the cast.
+    members: Vec<u32>,
+    absent: Option<Absent>,
+}
+
+/// Members of a cast that are not there, but may be in another picture.
+struct Absent {
+    /// Each with its number.
+    bodies: Vec<(u32, Body)>,
+    tree: Tree,
+    are_transparent: bool,
 }
 
 /// Which rays still look for something, and how far.
@@ -115,8 +124,8 @@ pub struct Sight<S: Simd> {
 }
 
 impl<'a> World<'a> {
-    /// `space` is the scene's.
-    pub fn new(scene: &'a Scene, space: Space, shelf: &Shelf) -> World<'a> {
+    /// Of the objects of `scene`. If it is one of the pictures of a `cast`, it is told what pixels depend on.
+    pub fn new(scene: &'a Scene, shelf: &Shelf, cast: Option<&Cast>) -> World<'a> {
         let mut order: Vec<&Object> = scene.objects.iter().collect();
         order.sort_by_key(|object| object.surface.is_transparent());
         let mut world = World {
@@ -124,16 +133,16 @@ impl<'a> World<'a> {
             materials: Materials::default(),
             bodies: Vec::with_capacity(order.len()),
             grid: Grid::new(scene.cells),
-            space,
             loose: Vec::new(),
             endless: Vec::new(),
             transparent: Vec::new(),
             names: Vec::new(),
+            members: Vec::new(),
+            absent: None,
         };
         for (index, object) in order.into_iter().enumerate() {
-            let materials = world.materials.add(object.surface.materials());
-            let body = Body::new(object, shelf, materials, &space);
-            match space.cell(object) {
+            let body = world.body(object, shelf);
+            match scene.cells.cell(&object.body) {
                 _ if body.is_endless => world.endless.push(index),
                 Some(cell) => world.grid.stand(index, cell),
                 None => world.loose.push(index),
@@ -142,14 +151,34 @@ impl<'a> World<'a> {
                 world.transparent.push(index);
             }
             world.names.push(name(object));
+            world.members.push(cast.and_then(|cast| cast.number(object)).unwrap_or(NO_MEMBER));
             world.bodies.push(body);
         }
+        world.absent = cast.map(|cast| world.absent(cast, shelf));
         world
+    }
+
+    fn body(&mut self, object: &Object, shelf: &Shelf) -> Body {
+        let materials = self.materials.add(object.surface.materials());
+        Body::new(object, shelf, materials)
+    }
+
+    fn absent(&mut self, cast: &Cast, shelf: &Shelf) -> Absent {
+        let mut bodies = Vec::new();
+        for (number, object) in (0..).zip(cast.members()) {
+            if !self.members.contains(&number) {
+                bodies.push((number, self.body(&cast.envelope(object), shelf)));
+            }
+        }
+        let boxes: Vec<[Vec3; 2]> = bodies.iter().map(|(_, body)| [body.min, body.max]).collect();
+        let are_transparent = bodies.iter().any(|(_, body)| body.is_transparent);
+        Absent { bodies, tree: Tree::new(&boxes), are_transparent }
     }
 
     /// Whether anything can be seen through.
     pub fn is_transparent(&self) -> bool {
         !self.transparent.is_empty()
+            || self.absent.as_ref().is_some_and(|absent| absent.are_transparent)
     }
 
     /// Numbers by which the bodies that rays meet are told apart.
@@ -175,7 +204,7 @@ impl<'a> World<'a> {
         rays: &Rays<S>,
         before: F32x8<S>,
         lanes: Mask8<S>,
-        touched: &mut Option<Touched<S>>,
+        ties: &mut Option<Ties8<S>>,
     ) -> Meeting<S> {
         S::run(
             #[inline(always)]
@@ -200,8 +229,10 @@ impl<'a> World<'a> {
                         search.before = found.t;
                     },
                 );
-                if let Some(touched) = touched {
-                    touched.add_way(&self.space, rays, found.t, lanes);
+                if let Some(ties) = ties {
+                    let met = lanes & found.lanes();
+                    ties.add_each(U32x8::gather(&self.members, found.body), met);
+                    self.would_meet(rays, found.t, lanes, ties);
                 }
                 found
             },
@@ -216,12 +247,13 @@ impl<'a> World<'a> {
         rays: &Rays<S>,
         distance: F32x8<S>,
         lanes: Mask8<S>,
-        touched: &mut Option<Touched<S>>,
+        ties: &mut Option<Ties8<S>>,
     ) -> F32x8<S> {
         S::run(
             #[inline(always)]
             || {
-                let mut share = lanes.keep(F32x8::splat(1.0));
+                let one = F32x8::splat(1.0);
+                let mut share = lanes.keep(one);
                 let mut dark = Mask8::no_lanes();
                 self.visit(
                     rays,
@@ -232,27 +264,90 @@ impl<'a> World<'a> {
                         if body.is_transparent {
                             let passed = self.passed(body, rays, distance, lanes);
                             share = lanes.select(share * passed, share);
+                            if let Some(ties) = ties {
+                                ties.add(self.members[index], lanes & passed.lt(one));
+                            }
                         } else {
                             let blocked =
                                 lanes & body.blocks(rays, F32x8::splat(0.0), distance, lanes);
                             share = blocked.select(F32x8::splat(0.0), share);
                             search.lanes = search.lanes.but(blocked);
                             dark = dark | blocked;
-                            // Whatever else is in the way makes no difference.
-                            if let Some(touched) = touched
-                                && blocked.any()
-                            {
-                                touched.add(blocked, &body.regions);
+                            if let Some(ties) = ties {
+                                ties.add(self.members[index], blocked);
                             }
                         }
                     },
                 );
-                if let Some(touched) = touched {
-                    touched.add_way(&self.space, rays, distance, lanes.but(dark));
+                if let Some(ties) = ties {
+                    // Whatever else is in the way of what is dark makes no difference.
+                    self.would_block(rays, distance, lanes.but(dark), ties);
                 }
                 share
             },
         )
+    }
+
+    /// Adds the absent bodies that rays would meet, up to the distances `before`.
+    #[inline(never)]
+    fn would_meet<S: Simd>(
+        &self,
+        rays: &Rays<S>,
+        before: F32x8<S>,
+        lanes: Mask8<S>,
+        ties: &mut Ties8<S>,
+    ) {
+        S::run(
+            #[inline(always)]
+            || {
+                let Some(absent) = &self.absent else { return };
+                // A hair more, so that what is in one place counts.
+                let before = before * F32x8::splat(1.0 + 4.0 * f32::EPSILON);
+                absent.tree.visit(
+                    rays,
+                    before,
+                    lanes,
+                    #[inline(always)]
+                    |index, lanes| {
+                        let (number, body) = &absent.bodies[index];
+                        let crossing = body.first(rays, before, lanes);
+                        ties.add(*number, lanes & crossing.t.lt(before));
+                    },
+                );
+            },
+        );
+    }
+
+    /// Adds the absent bodies that would hold back light from `distance`.
+    #[inline(never)]
+    fn would_block<S: Simd>(
+        &self,
+        rays: &Rays<S>,
+        distance: F32x8<S>,
+        lanes: Mask8<S>,
+        ties: &mut Ties8<S>,
+    ) {
+        S::run(
+            #[inline(always)]
+            || {
+                let Some(absent) = &self.absent else { return };
+                absent.tree.visit(
+                    rays,
+                    distance,
+                    lanes,
+                    #[inline(always)]
+                    |index, lanes| {
+                        let (number, body) = &absent.bodies[index];
+                        let blocked = if body.is_transparent {
+                            self.passed(body, rays, distance, lanes).lt(F32x8::splat(1.0))
+                        } else {
+                            body.blocks(rays, F32x8::splat(0.0), distance, lanes)
+                        };
+                        ties.add(*number, lanes & blocked);
+                    },
+                );
+            },
+        );
     }
 
     /// What the surfaces of a transparent body let through up to `distance`.
@@ -332,7 +427,7 @@ impl<'a> World<'a> {
         meeting: &Meeting<S>,
         seen: F32x8<S>,
         lanes: Mask8<S>,
-        touched: &mut Option<Touched<S>>,
+        ties: &mut Option<Ties8<S>>,
     ) -> Sight<S> {
         let point = rays.at(meeting.t);
         let zero = Vec3x8::zero();
@@ -348,10 +443,10 @@ impl<'a> World<'a> {
             #[inline(always)]
             |body, lanes| {
                 self.sight_of(body, point, meeting.part, seen, lanes, &mut sight);
-                if let Some(touched) = touched
+                if let Some(ties) = ties
                     && body.is_painted
                 {
-                    touched.add_squares(&self.space, point, lanes);
+                    ties.add_cells(&self.scene.cells, point, lanes);
                 }
             },
         );
@@ -432,19 +527,26 @@ impl<'a> World<'a> {
 
     /// The refractive index at `points`: that of all that is transparent, where it lies inside any of
     /// it (Turek 2008, 4.2).
-    pub fn index_at<S: Simd>(&self, points: Vec3x8<S>, lanes: Mask8<S>) -> F32x8<S> {
+    pub fn index_at<S: Simd>(
+        &self,
+        points: Vec3x8<S>,
+        lanes: Mask8<S>,
+        ties: &mut Option<Ties8<S>>,
+    ) -> F32x8<S> {
         S::run(
             #[inline(always)]
             || {
                 let mut inside = Mask8::no_lanes();
                 for index in &self.transparent {
-                    let body = &self.bodies[*index];
-                    let (min, max) = (Vec3x8::splat(body.min), Vec3x8::splat(body.max));
-                    let near = points.x.ge(min.x) & points.y.ge(min.y) & points.z.ge(min.z);
-                    let near = near & points.x.le(max.x) & points.y.le(max.y) & points.z.le(max.z);
-                    let near = lanes.but(inside) & (near | Mask8::splat(body.is_endless));
-                    if near.any() {
-                        inside = inside | near & body.contains(points, near);
+                    let found = self.bodies[*index].holds(points, lanes.but(inside));
+                    inside = inside | found;
+                    if let Some(ties) = ties {
+                        ties.add(self.members[*index], found);
+                    }
+                }
+                if let (Some(ties), Some(absent)) = (ties, &self.absent) {
+                    for (number, body) in absent.bodies.iter().filter(|(_, body)| body.is_transparent) {
+                        ties.add(*number, body.holds(points, lanes.but(inside)));
                     }
                 }
                 inside.select(F32x8::splat(self.scene.snell_index as f32), F32x8::splat(1.0))
@@ -471,7 +573,7 @@ pub fn enters<S: Simd>(
 }
 
 impl Body {
-    fn new(object: &Object, shelf: &Shelf, materials: u32, space: &Space) -> Body {
+    fn new(object: &Object, shelf: &Shelf, materials: u32) -> Body {
         let transform = object.body.transform();
         let to_own = transform.inverse();
         let bounds = object.body.bounds();
@@ -496,7 +598,6 @@ impl Body {
                 height: bounds.max.y as f32,
             }),
             is_painted: object.paint.is_some(),
-            regions: space.regions(object),
             is_transparent: object.surface.is_transparent(),
             is_endless,
         }
@@ -546,9 +647,17 @@ impl Body {
         self.solid.blocks(&self.to_own.rays(rays), after, before, lanes)
     }
 
+    /// Which of the `points` lie inside.
     #[inline(always)]
-    fn contains<S: Simd>(&self, points: Vec3x8<S>, lanes: Mask8<S>) -> Mask8<S> {
-        self.solid.contains(self.to_own.point(points), lanes)
+    fn holds<S: Simd>(&self, points: Vec3x8<S>, lanes: Mask8<S>) -> Mask8<S> {
+        let (min, max) = (Vec3x8::splat(self.min), Vec3x8::splat(self.max));
+        let near = points.x.ge(min.x) & points.y.ge(min.y) & points.z.ge(min.z);
+        let near = near & points.x.le(max.x) & points.y.le(max.y) & points.z.le(max.z);
+        let near = lanes & (near | Mask8::splat(self.is_endless));
+        if !near.any() {
+            return near;
+        }
+        near & self.solid.contains(self.to_own.point(points), near)
     }
 
     #[inline(always)]
@@ -596,4 +705,11 @@ fn name(object: &Object) -> u32 {
     let step = |hash: u64, number: u64| (hash ^ number).wrapping_mul(0x0000_0100_0000_01B3);
     let hash = numbers.chain([object.seed]).fold(0xCBF2_9CE4_8422_2325, step);
     (hash ^ hash >> 32) as u32
+}
+
+/// A box round `min` and `max` in f32, with no more room than rounding needs: rays that leave a face must not be
+/// taken to begin inside.
+fn rounded(min: DVec3, max: DVec3) -> [Vec3; 2] {
+    let room = |corner: DVec3| corner.abs() * 4e-6 + 1e-6;
+    [(min - room(min)).as_vec3(), (max + room(max)).as_vec3()]
 }

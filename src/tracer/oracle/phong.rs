@@ -10,7 +10,7 @@ use crate::tracer::RayCounts;
 use crate::tracer::eye::Eye;
 use crate::tracer::footprint::Footprint;
 use crate::tracer::phong::{Places, Seen, Shade};
-use crate::tracer::regions::Regions;
+use crate::tracer::ties::Ties;
 
 /// How often a ray may go straight through a surface before each further time counts as refraction.
 const MAX_PASSES: u32 = 100;
@@ -162,11 +162,9 @@ impl Eye<Places, Seen> for Phong<'_> {
         &self,
         places: &Places,
         seen: &mut Vec<Seen>,
-        touched: Option<&mut Vec<Regions>>,
+        _: Option<&mut Vec<Ties>>,
     ) -> RayCounts {
-        let count = places.x.len();
         // It does not know.
-        touched.into_iter().for_each(|touched| touched.resize(touched.len() + count, Regions::ALL));
         let mut counts = RayCounts::default();
         let ([width, height], camera) = (self.size, &self.world.scene.camera);
         let spread = camera.spread(width) / f64::from(places.side);
@@ -183,10 +181,10 @@ impl Eye<Places, Shade> for Phong<'_> {
         &self,
         places: &Places,
         seen: &mut Vec<Shade>,
-        touched: Option<&mut Vec<Regions>>,
+        ties: Option<&mut Vec<Ties>>,
     ) -> RayCounts {
         let mut all: Vec<Seen> = Vec::new();
-        let counts = self.see(places, &mut all, touched);
+        let counts = self.see(places, &mut all, ties);
         seen.extend(all.iter().map(|seen| seen.shade));
         counts
     }

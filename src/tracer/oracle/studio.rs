@@ -15,7 +15,7 @@ use crate::scene::{MIDDLE, Material, Rgb, Room, Scene, linear_light};
 use crate::tracer::RayCounts;
 use crate::tracer::exposure::{Glimpse, LENS, PLACE, Sample};
 use crate::tracer::eye::Eye;
-use crate::tracer::regions::Regions;
+use crate::tracer::ties::Ties;
 use crate::tracer::sequence::Sequence;
 use crate::tracer::studio::{
     BRIGHTEST_IN_A_MIRROR, FAR_GROUND, FREE_SKY, GROUND, HIDES, MELTS, MIRRORS_FROM, PAPER,
@@ -322,12 +322,9 @@ impl Eye<[Sample], Glimpse> for Studio<'_> {
         &self,
         samples: &[Sample],
         seen: &mut Vec<Glimpse>,
-        touched: Option<&mut Vec<Regions>>,
+        _: Option<&mut Vec<Ties>>,
     ) -> RayCounts {
         // It does not know.
-        touched
-            .into_iter()
-            .for_each(|touched| touched.resize(touched.len() + samples.len(), Regions::ALL));
         let mut counts = RayCounts::default();
         let ([width, height], camera) = (self.size, &self.world.scene.camera);
         seen.extend(samples.iter().map(|&Sample { spot: [x, y], index, is_centered }| {
