@@ -1,9 +1,9 @@
 //! What a pixel shows, and as which bytes.
 
-use image::{DynamicImage, RgbImage, RgbaImage};
+use image::{DynamicImage, Rgb as Rgb8, RgbImage, Rgba, RgbaImage};
 use rayon::prelude::*;
 
-use super::plane::Plane;
+use super::plane::{Plane, Spot};
 use crate::scene::Rgb;
 
 /// What a pixel, or a part of it, shows. The mean of any number of equal ones is the same again: sums of so few
@@ -60,6 +60,20 @@ pub fn picture(pixels: &Plane<Stored>, is_transparent: bool) -> DynamicImage {
     picture.unwrap_or_default()
 }
 
+/// Changes some pixels of a picture.
+pub fn set(picture: &mut DynamicImage, pixels: impl Iterator<Item = (Spot, Stored)>) {
+    match picture {
+        DynamicImage::ImageRgb8(picture) => pixels.for_each(|([x, y], [red, green, blue, _])| {
+            picture.put_pixel(x, y, Rgb8([red, green, blue]));
+        }),
+        DynamicImage::ImageRgba8(picture) => {
+            pixels.for_each(|([x, y], stored)| picture.put_pixel(x, y, Rgba(stored)));
+        }
+        // Pictures are made of no other kind.
+        _ => {}
+    }
+}
+
 /// How many pixels a thread converts at a time.
 const RUN: usize = 1 << 14;
 
@@ -68,7 +82,7 @@ fn opaque(pixels: &[Stored]) -> Vec<u8> {
     let mut bytes = vec![0; 3 * pixels.len()];
     bytes.par_chunks_mut(3 * RUN).zip(pixels.par_chunks(RUN)).for_each(|(bytes, pixels)| {
         for (bytes, [red, green, blue, _]) in bytes.chunks_exact_mut(3).zip(pixels) {
-            bytes.copy_from_slice(&[*red, *green, *blue]);
+            (bytes[0], bytes[1], bytes[2]) = (*red, *green, *blue);
         }
     });
     bytes

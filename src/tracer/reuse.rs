@@ -8,7 +8,7 @@
 
 use image::DynamicImage;
 
-use super::cast::{Cast, change};
+use super::cast::{Cast, Stand, change};
 use super::exposure::{Exposure, Sizes, Sum};
 use super::mask::Mask;
 use super::oracle;
@@ -42,6 +42,8 @@ struct Last {
     scene: Scene,
     present: u128,
     kept: Kept,
+    /// What stood in it, as a picture.
+    picture: DynamicImage,
 }
 
 /// What stood in the last picture.
@@ -77,50 +79,48 @@ impl Tracer {
         scene: &Scene,
         coming: impl IntoIterator<Item = Scene>,
     ) -> (DynamicImage, RayCounts) {
-        let (pixels, counts) = self.pixels(scene, coming.into_iter());
-        (pixel::picture(&pixels, scene.background.is_none()), counts)
-    }
-
-    fn pixels(
-        &mut self,
-        scene: &Scene,
-        mut coming: impl Iterator<Item = Scene>,
-    ) -> (Plane<Stored>, RayCounts) {
+        let mut coming = coming.into_iter();
         let next = coming.next();
         let known = self.last.take().and_then(|last| {
             let stand = last.cast.stand(scene, last.present, next.as_ref())?;
             let changed = change((&last.scene, last.present), (&stand.scene, stand.present))?;
             Some((last, stand, changed))
         });
-        let (cast, stand, mut kept, mut counts) = match known {
-            Some((Last { cast, mut kept, .. }, stand, changed)) => {
+        let is_transparent = scene.background.is_none();
+        let (cast, stand, mut kept, standing, mut counts) = match known {
+            Some((Last { cast, mut kept, mut picture, .. }, stand, changed)) => {
                 let mut counts = RayCounts::default();
                 if !changed.is_empty() {
                     let work = Repaint(&mut kept, &changed);
-                    counts = self.with_painter(&stand.scene, Some(&cast), work);
+                    let (mask, rays) = self.with_painter(&stand.scene, Some(&cast), work);
+                    let pixels = kept.picture();
+                    pixel::set(&mut picture, mask.spots().map(|spot| (spot, pixels.at(spot))));
+                    counts = rays;
                 }
-                (cast, stand, kept, counts)
+                (cast, stand, kept, picture, counts)
             }
             None => {
                 let cast = Cast::new(scene, next.iter().cloned().chain(coming)).shrunk(self.share);
                 let stand = cast.stand(scene, 0, next.as_ref());
                 let Some(stand) = stand.filter(|_| cast.pictures > 1) else {
                     let (kept, counts) = self.whole(scene, None);
-                    return (kept.into_picture(), counts);
+                    return (pixel::picture(kept.picture(), is_transparent), counts);
                 };
                 let (kept, counts) = self.whole(&stand.scene, Some(&cast));
-                (cast, stand, kept, counts)
+                let picture = pixel::picture(kept.picture(), is_transparent);
+                (cast, stand, kept, picture, counts)
             }
         };
-        let mut pixels = kept.picture().clone();
+        let mut picture = standing.clone();
         if stand.over != 0 {
             let over = Ties::new(0, stand.over);
             let (overlay, rays) = self.with_painter(scene, None, Overpaint(&mut kept, &over));
-            overlay.mask.set(&mut pixels, &overlay.values);
+            pixel::set(&mut picture, overlay.mask.spots().zip(overlay.values));
             counts = counts + rays;
         }
-        self.last = Some(Last { cast, scene: stand.scene, present: stand.present, kept });
-        (pixels, counts)
+        let Stand { scene, present, .. } = stand;
+        self.last = Some(Last { cast, scene, present, kept, picture: standing });
+        (picture, counts)
     }
 
     /// A whole picture.
@@ -186,13 +186,6 @@ impl Kept {
             Kept::Studio(sketch) => &sketch.picture,
         }
     }
-
-    fn into_picture(self) -> Plane<Stored> {
-        match self {
-            Kept::Phong(sketch) => sketch.picture,
-            Kept::Studio(sketch) => sketch.picture,
-        }
-    }
 }
 
 struct Whole {
@@ -216,18 +209,18 @@ impl Work<(Kept, RayCounts)> for Whole {
 
 struct Repaint<'a>(&'a mut Kept, &'a Ties);
 
-impl Work<RayCounts> for Repaint<'_> {
-    fn phong(self, painter: &impl Painter<Look = Seen>) -> RayCounts {
+impl Work<(Mask, RayCounts)> for Repaint<'_> {
+    fn phong(self, painter: &impl Painter<Look = Seen>) -> (Mask, RayCounts) {
         match self.0 {
             Kept::Phong(sketch) => sketch.repaint(painter, self.1),
-            Kept::Studio(_) => RayCounts::default(),
+            Kept::Studio(_) => Default::default(),
         }
     }
 
-    fn studio(self, painter: &impl Painter<Look = Sum>) -> RayCounts {
+    fn studio(self, painter: &impl Painter<Look = Sum>) -> (Mask, RayCounts) {
         match self.0 {
             Kept::Studio(sketch) => sketch.repaint(painter, self.1),
-            Kept::Phong(_) => RayCounts::default(),
+            Kept::Phong(_) => Default::default(),
         }
     }
 }

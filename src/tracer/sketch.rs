@@ -77,10 +77,15 @@ impl<L: Copy + Send + Sync> Sketch<L> {
         (sketch, counts + RayCounts { primary: skipped, ..RayCounts::default() })
     }
 
-    /// Paints anew what depends on `changed`.
-    pub fn repaint(&mut self, painter: &impl Painter<Look = L>, changed: &Ties) -> RayCounts {
+    /// Paints anew what depends on `changed`, and tells which pixels that is.
+    pub fn repaint(
+        &mut self,
+        painter: &impl Painter<Look = L>,
+        changed: &Ties,
+    ) -> (Mask, RayCounts) {
         let [first, all] = self.stale(changed);
-        self.paint(painter, &first, &all)
+        let counts = self.paint(painter, &first, &all);
+        (all, counts)
     }
 
     /// What the picture is when `over` is laid over it, without a change to what is kept.

@@ -86,6 +86,13 @@ impl<S: Simd> Ties8<S> {
         }
     }
 
+    /// Which lanes have a member.
+    #[inline(always)]
+    pub fn have(&self, member: u32) -> Mask8<S> {
+        let bit = U32x8::splat(1 << (member % 32));
+        (self.words[CELLS + member as usize / 32 % (MEMBERS / 32)] & bit).eq(bit)
+    }
+
     /// Adds to each of some lanes a member, or none.
     #[inline(always)]
     pub fn add_each(&mut self, members: U32x8<S>, lanes: Mask8<S>) {

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use glam::{DMat3, DVec3, Vec2, Vec3};
+use smallvec::SmallVec;
 
 use super::cells::Grid;
 use super::cast::Cast;
@@ -83,11 +84,13 @@ pub struct World<'a> {
 
 /// Members of a cast that are not there, but may be in another picture.
 struct Absent {
-    /// Each with its number.
-    bodies: Vec<(u32, Body)>,
+    bodies: Vec<(Members, Body)>,
     tree: Tree,
     are_transparent: bool,
 }
+
+/// The numbers of members that are opaque and fill the same space, or of a single one.
+type Members = SmallVec<[u32; 4]>;
 
 /// Which rays still look for something, and how far.
 #[derive(Clone, Copy)]
@@ -164,10 +167,23 @@ impl<'a> World<'a> {
     }
 
     fn absent(&mut self, cast: &Cast, shelf: &Shelf) -> Absent {
-        let mut bodies = Vec::new();
+        let mut bodies: Vec<(Members, Body)> = Vec::new();
+        let mut objects: Vec<&Object> = Vec::new();
         for (number, object) in (0..).zip(cast.members()) {
-            if !self.members.contains(&number) {
-                bodies.push((number, self.body(&cast.envelope(object), shelf)));
+            if self.members.contains(&number) {
+                continue;
+            }
+            let is_same = |known: &&Object| {
+                let are_opaque = !known.surface.is_transparent() && !object.surface.is_transparent();
+                are_opaque && known.is_same_body(object)
+            };
+            match objects.iter().position(is_same) {
+                Some(index) => bodies[index].0.push(number),
+                None => {
+                    objects.push(object);
+                    let body = self.body(&cast.envelope(object), shelf);
+                    bodies.push((Members::from_slice(&[number]), body));
+                }
             }
         }
         let boxes: Vec<[Vec3; 2]> = bodies.iter().map(|(_, body)| [body.min, body.max]).collect();
@@ -309,9 +325,12 @@ impl<'a> World<'a> {
                     lanes,
                     #[inline(always)]
                     |index, lanes| {
-                        let (number, body) = &absent.bodies[index];
-                        let crossing = body.first(rays, before, lanes);
-                        ties.add(*number, lanes & crossing.t.lt(before));
+                        let (members, body) = &absent.bodies[index];
+                        let lanes = lanes.but(ties.have(members[0]));
+                        if lanes.any() {
+                            let met = lanes & body.first(rays, before, lanes).t.lt(before);
+                            members.iter().for_each(|member| ties.add(*member, met));
+                        }
                     },
                 );
             },
@@ -337,13 +356,17 @@ impl<'a> World<'a> {
                     lanes,
                     #[inline(always)]
                     |index, lanes| {
-                        let (number, body) = &absent.bodies[index];
+                        let (members, body) = &absent.bodies[index];
+                        let lanes = lanes.but(ties.have(members[0]));
+                        if !lanes.any() {
+                            return;
+                        }
                         let blocked = if body.is_transparent {
                             self.passed(body, rays, distance, lanes).lt(F32x8::splat(1.0))
                         } else {
                             body.blocks(rays, F32x8::splat(0.0), distance, lanes)
                         };
-                        ties.add(*number, lanes & blocked);
+                        members.iter().for_each(|member| ties.add(*member, lanes & blocked));
                     },
                 );
             },
@@ -545,8 +568,10 @@ impl<'a> World<'a> {
                     }
                 }
                 if let (Some(ties), Some(absent)) = (ties, &self.absent) {
-                    for (number, body) in absent.bodies.iter().filter(|(_, body)| body.is_transparent) {
-                        ties.add(*number, body.holds(points, lanes.but(inside)));
+                    let clear = absent.bodies.iter().filter(|(_, body)| body.is_transparent);
+                    for (members, body) in clear {
+                        let held = body.holds(points, lanes.but(inside));
+                        members.iter().for_each(|member| ties.add(*member, held));
                     }
                 }
                 inside.select(F32x8::splat(self.scene.snell_index as f32), F32x8::splat(1.0))
