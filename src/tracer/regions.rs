@@ -264,7 +264,8 @@ impl Slab {
         let number = F32x8::splat;
         // Where the ray is at the right height; an endless one is as good as this long. A level one is at its
         // height all the way, or nowhere.
-        let [low, high] = self.heights.map(number);
+        let [low, high] = self.heights;
+        let (low, high) = (number(low), number(high));
         let (a, b) = ((low - o.y) * inverse.y, (high - o.y) * inverse.y);
         let is_flat = d.y.abs().lt(number(1e-12));
         let is_high = is_flat & o.y.ge(low) & o.y.le(high);
