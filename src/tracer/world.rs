@@ -8,6 +8,7 @@ use super::cells::Grid;
 use super::regions::{Regions, Space, Touched, rounded};
 use crate::geometry::{Bounds, Solid as _};
 use crate::lanes::{F32x8, Mask8, Simd, U32x8, Vec3x8};
+use crate::packet::boxes::{Aabb, Hierarchy, Way};
 use crate::packet::solids::{Crossing, Normals, Solid};
 use crate::packet::surfaces::{Look, Surface};
 use crate::packet::{Rays, Transform};
@@ -41,8 +42,7 @@ struct Body {
     /// Where the surface's materials begin in the world's.
     materials: u32,
     /// A box that is known to hold the body, with room for rounding.
-    min: Vec3,
-    max: Vec3,
+    aabb: Aabb,
     roof: Option<Roof>,
     is_transparent: bool,
     is_endless: bool,
@@ -71,8 +71,9 @@ pub struct World<'a> {
     grid: Grid,
     /// How the space is divided.
     space: Space,
-    /// What stands in no cell, and what has no end.
+    /// What stands in no cell, with a tree of its boxes; and what has no end.
     loose: Vec<usize>,
+    boxes: Hierarchy,
     endless: Vec<usize>,
     /// Which bodies are transparent.
     transparent: Vec<usize>,
@@ -126,6 +127,7 @@ impl<'a> World<'a> {
             grid: Grid::new(scene.cells),
             space,
             loose: Vec::new(),
+            boxes: Hierarchy::new(&[], 0.0),
             endless: Vec::new(),
             transparent: Vec::new(),
             names: Vec::new(),
@@ -144,6 +146,9 @@ impl<'a> World<'a> {
             world.names.push(name(object));
             world.bodies.push(body);
         }
+        let bounds = |index: &usize| world.bodies[*index].aabb.bounds();
+        let loose: Vec<Bounds> = world.loose.iter().map(bounds).collect();
+        world.boxes = Hierarchy::new(&loose, 0.0);
         world
     }
 
@@ -301,22 +306,25 @@ impl<'a> World<'a> {
                 look(*index, search.lanes, &mut search);
             }
         }
-        let inverse = rays.direction.recips();
-        for index in &self.loose {
-            let body = &self.bodies[*index];
-            let near = search.lanes & enters(rays, inverse, [body.min, body.max], search.before);
-            if near.any() {
-                look(*index, near, &mut search);
-            }
-        }
+        let (way, zero) = (Way::new(rays), F32x8::splat(0.0));
+        self.boxes.along(
+            &way,
+            zero,
+            search.before,
+            search.lanes,
+            #[inline(always)]
+            |item, _, near| {
+                look(self.loose[item], near, &mut search);
+                (search.before, search.lanes)
+            },
+        );
         self.grid.visit(
             rays,
-            inverse,
+            way.per_length,
             &mut search,
             #[inline(always)]
             |index, lanes, search| {
-                let body = &self.bodies[index];
-                let near = lanes & enters(rays, inverse, [body.min, body.max], search.before);
+                let near = lanes & self.bodies[index].aabb.may_meet(&way, zero, search.before);
                 if near.any() {
                     look(index, near, search);
                 }
@@ -439,10 +447,8 @@ impl<'a> World<'a> {
                 let mut inside = Mask8::no_lanes();
                 for index in &self.transparent {
                     let body = &self.bodies[*index];
-                    let (min, max) = (Vec3x8::splat(body.min), Vec3x8::splat(body.max));
-                    let near = points.x.ge(min.x) & points.y.ge(min.y) & points.z.ge(min.z);
-                    let near = near & points.x.le(max.x) & points.y.le(max.y) & points.z.le(max.z);
-                    let near = lanes.but(inside) & (near | Mask8::splat(body.is_endless));
+                    let near = body.aabb.holds(points) | Mask8::splat(body.is_endless);
+                    let near = lanes.but(inside) & near;
                     if near.any() {
                         inside = inside | near & body.contains(points, near);
                     }
@@ -453,31 +459,13 @@ impl<'a> World<'a> {
     }
 }
 
-/// Which rays may come into a box before `before`. What is infinite in `inverse` is so by a direction of
-/// zero; on a face of the box such a ray counts as inside.
-#[inline(always)]
-pub fn enters<S: Simd>(
-    rays: &Rays<S>,
-    inverse: Vec3x8<S>,
-    [min, max]: [Vec3; 2],
-    before: F32x8<S>,
-) -> Mask8<S> {
-    let low = (Vec3x8::splat(min) - rays.origin).times(inverse);
-    let high = (Vec3x8::splat(max) - rays.origin).times(inverse);
-    let (near, far) = (low.min(high), low.max(high));
-    let enter = near.x.max(near.y).max(near.z.max(F32x8::splat(0.0)));
-    let exit = far.x.min(far.y).min(far.z.min(before));
-    enter.le(exit)
-}
-
 impl Body {
     fn new(object: &Object, shelf: &Shelf, materials: u32, space: &Space) -> Body {
         let transform = object.body.transform();
         let to_own = transform.inverse();
         let bounds = object.body.bounds();
         let is_endless = !bounds.is_finite();
-        let Bounds { min, max } = bounds;
-        let [min, max] = rounded(min, max);
+        let [min, max] = rounded(bounds.min, bounds.max);
         let normals = to_own.matrix3.transpose();
         let is_turned = normals != DMat3::IDENTITY;
         Body {
@@ -488,8 +476,7 @@ impl Body {
             }),
             surface: Surface::new(object),
             materials,
-            min,
-            max,
+            aabb: Aabb { min, max },
             roof: object.roof.map(|[min, max]| Roof {
                 min: min.as_vec2(),
                 max: max.as_vec2(),
