@@ -21,7 +21,7 @@ impl Placed {
     pub fn new(solid: Arc<dyn Solid>, transform: DAffine3) -> Placed {
         let to_own = transform.inverse();
         Placed {
-            bounds: solid.bounds().transformed(&transform),
+            bounds: Bounds::placed(&*solid, &transform),
             normals: to_own.matrix3.transpose(),
             transform,
             to_own,
