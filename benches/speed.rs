@@ -92,9 +92,8 @@ fn frames(criterion: &mut Criterion) {
             tracer.picture(&ply, plies.clone().take(2))
         };
         picture();
-        group.bench_function(format!("{name} reuse of a ply"), |bencher| {
-            bencher.iter(&mut picture)
-        });
+        group
+            .bench_function(format!("{name} reuse of a ply"), |bencher| bencher.iter(&mut picture));
     }
 }
 

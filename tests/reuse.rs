@@ -202,7 +202,8 @@ fn any_number_of_threads_gives_the_same_bytes() {
         let with = |threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             let mut tracer = Tracer::new(WIDTH, HEIGHT, ADAPTIVE);
-            let picture = |index: usize| tracer.picture(&scenes[index], scenes[index + 1..].to_vec());
+            let picture =
+                |index: usize| tracer.picture(&scenes[index], scenes[index + 1..].to_vec());
             pool.install(|| (0..scenes.len()).map(picture).collect::<Vec<_>>())
         };
         let alone = with(1);

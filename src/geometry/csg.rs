@@ -69,7 +69,9 @@ impl Csg {
 
     /// The whole tree, moved by an invertible `transform`.
     pub fn placed(self, transform: DAffine3) -> Csg {
-        Csg::leaf(Placed::new(Arc::new(self), transform))
+        // Cameras and tall moves keep to the boxes of sets; those are as they have always been.
+        let bounds = self.bounds.transformed(&transform);
+        Csg { bounds, ..Csg::leaf(Placed::new(Arc::new(self), transform)) }
     }
 
     /// The tree's root: a solid by itself, or two trees and how they are joined.

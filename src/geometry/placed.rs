@@ -21,11 +21,25 @@ impl Placed {
     pub fn new(solid: Arc<dyn Solid>, transform: DAffine3) -> Placed {
         let to_own = transform.inverse();
         Placed {
-            bounds: solid.bounds().transformed(&transform),
+            bounds: Bounds::placed(&*solid, &transform),
             normals: to_own.matrix3.transpose(),
             transform,
             to_own,
             solid,
+        }
+    }
+
+    /// The same, carried farther.
+    pub fn moved(&self, by: DVec3) -> Placed {
+        let mut transform = self.transform;
+        transform.translation += by;
+        let Bounds { min, max } = self.bounds;
+        Placed {
+            solid: self.solid.clone(),
+            transform,
+            to_own: transform.inverse(),
+            normals: self.normals,
+            bounds: Bounds { min: min + by, max: max + by },
         }
     }
 

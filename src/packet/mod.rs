@@ -8,6 +8,7 @@
 //! All these functions leave lanes alone that are not among the `lanes` of the question: what they give
 //! there has no meaning (but is no panic).
 
+pub mod boxes;
 pub mod solids;
 pub mod surfaces;
 

@@ -17,8 +17,8 @@ use super::{Camera, Cells, Object, Reach, Readers, Rgb, Room, Scene, Side, Surfa
 use crate::assets::Assets;
 use crate::config::{self, Config, Light, Shading, View};
 use crate::geometry::transform::{scale, translation};
-use crate::geometry::{Bounds, Csg};
-use crate::notation::{Color, Piece, Square};
+use crate::geometry::{Bounds, Placed};
+use crate::notation::{Color, Piece, Role, Square};
 use crate::timeline::{Bodies, Frame, Gaze, Mover, Spot};
 
 /// A quarter of the least step that a picture can show. (Each surface of glass splits a ray in
@@ -47,7 +47,8 @@ pub enum StageError {
 /// What stays the same from frame to frame: the set, all that is no piece, lights, camera and
 /// background.
 pub struct Stage {
-    pieces: [Arc<Csg>; 6],
+    /// By role and colour, as they are turned, in the middle of the first square.
+    pieces: [[Placed; 2]; 6],
     /// Of White's pieces, and of Black's.
     surfaces: [Surface; 2],
     /// The board, its squares first, and the extra models.
@@ -58,7 +59,6 @@ pub struct Stage {
     camera: Camera,
     bodies: Bodies,
     lens: config::Camera,
-    facing: Facing,
     background: Option<Rgb>,
     room: Option<Room>,
     cells: Cells,
@@ -94,8 +94,13 @@ impl Stage {
         for settings in &config.models {
             fixed.push(model(settings, &materials)?);
         }
+        let facing = Facing::new(config.knights, &camera);
         Ok(Stage {
-            pieces: [set.pawn, set.knight, set.bishop, set.rook, set.queen, set.king].map(Arc::new),
+            pieces: Role::ALL.map(|role| {
+                let solid = Arc::new(set.men()[role as usize - 1].clone());
+                let turned = |color| facing.turn(Piece { role, color }) * translation(DVec3::Y * FELT);
+                [Color::White, Color::Black].map(|color| Placed::new(solid.clone(), turned(color)))
+            }),
             surfaces: [materials.surface(&scheme.white)?, materials.surface(&scheme.black)?],
             fixed,
             clock: clock.transpose()?,
@@ -105,7 +110,6 @@ impl Stage {
                 let turn = if config.room.turns { camera.azimuth() } else { 0.0 };
                 Room::new(&config.room, &config.lights, turn)
             }),
-            facing: Facing::new(config.knights, &camera),
             camera,
             bodies,
             lens: config.camera.clone(),
@@ -171,16 +175,22 @@ impl Stage {
     /// A piece on its spot, as large as the share `size` of it. Its grain is that of its identity; in the
     /// thesis all are of one tree.
     fn object(&self, piece: Piece, identity: Square, spot: Spot, size: f64) -> Object {
-        // Roles are numbered from 1, the pawn's.
-        let solid = &self.pieces[piece.role as usize - 1];
-        let place = DVec3::new(spot.file, spot.height, spot.rank) * SQUARE + DVec3::Y * FELT;
-        let place = translation(place) * self.facing.turn(piece) * scale(size);
-        let surface = &self.surfaces[match piece.color {
+        let color = match piece.color {
             Color::White => 0,
             Color::Black => 1,
-        }];
+        };
+        // Roles are numbered from 1, the pawn's.
+        let turned = &self.pieces[piece.role as usize - 1][color];
+        let place = DVec3::new(spot.file, spot.height, spot.rank) * SQUARE;
+        let body = if size == 1.0 {
+            turned.moved(place)
+        } else {
+            let place = translation(place) * turned.transform() * scale(size);
+            Placed::new(turned.shared().clone(), place)
+        };
         let seed = if self.room.is_some() { hash(1, identity.to_usize() as u64) } else { 0 };
-        Object { seed, ..Object::placed(solid.clone(), place, surface.clone()) }
+        let surface = self.surfaces[color].clone();
+        Object { body, surface, seed, paint: None, roof: None }
     }
 }
 

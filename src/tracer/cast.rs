@@ -112,9 +112,8 @@ impl Cast {
         let all = self.present(scene)?;
         let stay = before | next.and_then(|next| self.present(next)).unwrap_or(0);
         let (present, over) = (all & stay, all & !stay);
-        let stands = |object: &&Object| {
-            self.number(object).is_none_or(|number| present >> number & 1 == 1)
-        };
+        let stands =
+            |object: &&Object| self.number(object).is_none_or(|number| present >> number & 1 == 1);
         let objects = scene.objects.iter().filter(stands).cloned().collect();
         Some(Stand { scene: Scene { objects, ..scene.clone() }, present, over })
     }

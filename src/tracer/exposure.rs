@@ -5,8 +5,8 @@ use glam::{DVec3, Vec3};
 use super::eye::Eye;
 use super::pixel::{Pixel, Stored};
 use super::plane::{Plane, Spot};
-use super::ties::Ties;
 use super::sketch::Painter;
+use super::ties::Ties;
 use super::{Antialiasing, RayCounts, tone};
 use crate::scene::{Rgb, Scene, linear_light};
 
@@ -202,12 +202,7 @@ impl<E: Eye<[Sample], Glimpse>> Painter for Exposure<E> {
         true
     }
 
-    fn look(
-        &self,
-        spots: &[Spot],
-        made: &mut Vec<Sum>,
-        ties: Option<&mut Vec<Ties>>,
-    ) -> RayCounts {
+    fn look(&self, spots: &[Spot], made: &mut Vec<Sum>, ties: Option<&mut Vec<Ties>>) -> RayCounts {
         made.resize(spots.len(), Sum::default());
         let all: Vec<usize> = (0..spots.len()).collect();
         let ties = ties.map(|ties| {

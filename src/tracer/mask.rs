@@ -93,7 +93,8 @@ impl Mask {
         let tiles = (0..).zip(&self.tiles[start..start + self.columns as usize]);
         tiles.filter(|(_, tile)| **tile != 0).flat_map(move |(column, tile)| {
             let spots = (0..TILE * TILE).map(|index| {
-                let (block, within) = (index / (BLOCK[0] * BLOCK[1]), index % (BLOCK[0] * BLOCK[1]));
+                let (block, within) =
+                    (index / (BLOCK[0] * BLOCK[1]), index % (BLOCK[0] * BLOCK[1]));
                 let blocks = TILE / BLOCK[0];
                 [
                     block % blocks * BLOCK[0] + within % BLOCK[0],

@@ -4,7 +4,9 @@
 //! same for any number of threads. Rays go in packets of eight, in f32 ([`crate::packet`]); `oracle` does
 //! the same one ray at a time in f64, for tests.
 
+mod absent;
 mod antialiasing;
+mod body;
 mod cast;
 mod cells;
 mod exposure;
@@ -32,7 +34,6 @@ mod slab;
 mod studio;
 mod ties;
 mod tone;
-mod tree;
 mod world;
 
 pub use antialiasing::Antialiasing;

@@ -170,8 +170,7 @@ impl<'a> Phong<'a> {
                     return background;
                 }
                 let length = flight.length + meeting.t;
-                let sight =
-                    world.sight(rays, &meeting, length * walk.spread, hit, &mut walk.ties);
+                let sight = world.sight(rays, &meeting, length * walk.spread, hit, &mut walk.ties);
                 let materials = &world.materials;
                 let direction = rays.direction;
                 let (outward, normal) = facing(sight.normals, direction);

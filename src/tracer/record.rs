@@ -33,8 +33,8 @@ impl Record {
     pub fn stale(&self, changed: &Ties) -> Mask {
         let mut mask = Mask::empty([self.pixels.width, self.pixels.height]);
         for (index, _) in self.tiles.iter().enumerate().filter(|(_, ties)| ties.meet(changed)) {
-            let stale = spots(&self.pixels, index)
-                .filter(|spot| self.pixels.value(*spot).meet(changed));
+            let stale =
+                spots(&self.pixels, index).filter(|spot| self.pixels.value(*spot).meet(changed));
             stale.for_each(|spot| mask.add(spot));
         }
         mask

@@ -7,8 +7,8 @@ use super::footprint::Footprint;
 use super::phong::{Places, Seen, Shade};
 use super::pixel::{Pixel, Stored};
 use super::plane::{Plane, Spot};
-use super::ties::Ties;
 use super::sketch::Painter;
+use super::ties::Ties;
 use super::{Antialiasing, RayCounts};
 use crate::scene::Scene;
 

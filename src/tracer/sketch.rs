@@ -1,8 +1,8 @@
 //! A picture under way, in two passes, and what each pixel of it depends on.
 
 use super::RayCounts;
-use super::pixel::Stored;
 use super::mask::Mask;
+use super::pixel::Stored;
 use super::plane::{Plane, Spot};
 use super::record::Record;
 use super::ties::Ties;

@@ -33,7 +33,8 @@ impl Slab {
         let number = F32x8::splat;
         // Where the ray is at the right height; an endless one is as good as this long. A level one is at its
         // height all the way, or nowhere.
-        let [low, high] = self.heights.map(number);
+        let [low, high] = self.heights;
+        let (low, high) = (number(low), number(high));
         let (a, b) = ((low - o.y) * inverse.y, (high - o.y) * inverse.y);
         let is_flat = d.y.abs().lt(number(1e-12));
         let is_high = is_flat & o.y.ge(low) & o.y.le(high);
@@ -76,12 +77,7 @@ impl Slab {
 
     /// The rows that ways from `a` to `b` across them may pass in any lane.
     #[inline(always)]
-    fn rows_of<S: Simd>(
-        &self,
-        a: F32x8<S>,
-        b: F32x8<S>,
-        lanes: Mask8<S>,
-    ) -> Range<usize> {
+    fn rows_of<S: Simd>(&self, a: F32x8<S>, b: F32x8<S>, lanes: Mask8<S>) -> Range<usize> {
         let far = F32x8::splat(f32::INFINITY);
         let (low, high) = (lanes.select(a.min(b), far), lanes.select(a.max(b), -far));
         let low = low.store().into_iter().fold(f32::INFINITY, f32::min);

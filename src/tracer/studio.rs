@@ -12,8 +12,8 @@ use super::eye::Eye;
 use super::lights::Lights;
 use super::optics::{facing, fresnel, grazing, mirrored, refracted};
 use super::pinhole::Pinhole;
-use super::ties::{Ties, Ties8};
 use super::sequence::{Sequence, Sequences};
+use super::ties::{Ties, Ties8};
 use super::world::{Meeting, OFFSET, World};
 use crate::lanes::{F32x8, LANES, Mask8, Simd, Task, U32x8, Vec3x8, dispatch, math};
 use crate::packet::Rays;
@@ -153,8 +153,11 @@ impl<'a> Studio<'a> {
         };
         let (zero, one) = (F32x8::splat(0.0), F32x8::splat(1.0));
         let mut found = ties.is_some().then(Ties8::new);
-        let index =
-            if self.world.is_transparent() { self.world.index_at(rays.origin, lanes, &mut found) } else { one };
+        let index = if self.world.is_transparent() {
+            self.world.index_at(rays.origin, lanes, &mut found)
+        } else {
+            one
+        };
         let flight = Flight {
             rays,
             lanes,
@@ -308,8 +311,7 @@ impl<'a> Studio<'a> {
                     if asking.any() {
                         draw.counts.shadow += u64::from(asking.bits().count_ones());
                         let way = Rays { origin: meet.leaving, direction: towards };
-                        let open =
-                            self.world.transmission(&way, distance, asking, &mut draw.ties);
+                        let open = self.world.transmission(&way, distance, asking, &mut draw.ties);
                         share = asking.select(share * open, share);
                     }
                     sum += Vec3x8::splat(light.color) * share;

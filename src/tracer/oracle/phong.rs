@@ -158,12 +158,7 @@ impl<'a> Phong<'a> {
 }
 
 impl Eye<Places, Seen> for Phong<'_> {
-    fn see(
-        &self,
-        places: &Places,
-        seen: &mut Vec<Seen>,
-        _: Option<&mut Vec<Ties>>,
-    ) -> RayCounts {
+    fn see(&self, places: &Places, seen: &mut Vec<Seen>, _: Option<&mut Vec<Ties>>) -> RayCounts {
         // It does not know.
         let mut counts = RayCounts::default();
         let ([width, height], camera) = (self.size, &self.world.scene.camera);

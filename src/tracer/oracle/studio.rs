@@ -15,12 +15,12 @@ use crate::scene::{MIDDLE, Material, Rgb, Room, Scene, linear_light};
 use crate::tracer::RayCounts;
 use crate::tracer::exposure::{Glimpse, LENS, PLACE, Sample};
 use crate::tracer::eye::Eye;
-use crate::tracer::ties::Ties;
 use crate::tracer::sequence::Sequence;
 use crate::tracer::studio::{
     BRIGHTEST_IN_A_MIRROR, FAR_GROUND, FREE_SKY, GROUND, HIDES, MELTS, MIRRORS_FROM, PAPER,
     SHADOWS_FROM, purpose,
 };
+use crate::tracer::ties::Ties;
 
 /// The studio's eye on a world, for a picture of a size.
 pub struct Studio<'a> {

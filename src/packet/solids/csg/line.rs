@@ -5,16 +5,15 @@ use glam::Vec3;
 use super::ACROSS;
 use crate::lanes::{F32x8, Simd, Vec3x8};
 use crate::packet::Rays;
+use crate::packet::boxes::Way;
 
-/// Rays whose origins were moved, and what boxes want to know of them.
+/// Rays whose origins were moved.
 pub struct Line<S: Simd> {
     pub rays: Rays<S>,
-    /// The directions' reciprocals.
-    pub per_length: Vec3x8<S>,
+    /// The same for boxes.
+    pub way: Way<S>,
     /// [`ACROSS`] as a distance.
     pub across: F32x8<S>,
-    /// Which lanes go down along each axis.
-    pub falls: [u8; 3],
 }
 
 impl<S: Simd> Line<S> {
@@ -25,17 +24,8 @@ impl<S: Simd> Line<S> {
         let direction = rays.direction;
         let per_length2 = direction.dot(direction).recip();
         let moved = (Vec3x8::splat(middle) - rays.origin).dot(direction) * per_length2;
-        let zero = F32x8::splat(0.0);
-        let line = Line {
-            rays: Rays { origin: rays.at(moved), direction },
-            per_length: direction.recips(),
-            across: per_length2.sqrt() * F32x8::splat(ACROSS),
-            falls: [
-                direction.x.lt(zero).bits(),
-                direction.y.lt(zero).bits(),
-                direction.z.lt(zero).bits(),
-            ],
-        };
-        (line, moved)
+        let rays = Rays { origin: rays.at(moved), direction };
+        let across = per_length2.sqrt() * F32x8::splat(ACROSS);
+        (Line { rays, way: Way::new(&rays), across }, moved)
     }
 }

@@ -10,7 +10,6 @@
 //! After a jump members are asked [`ACROSS`] behind the crossing: there walls that are in one place are
 //! behind the ray together, whatever rounding made of each.
 
-mod boxes;
 mod leaf;
 mod line;
 mod node;
@@ -19,7 +18,7 @@ mod tree;
 use super::{Crossing, Normals, Solid};
 use crate::geometry;
 use crate::lanes::{F32x8, Mask8, Simd, U32x8, Vec3x8};
-use crate::packet::Rays;
+use crate::packet::{Rays, boxes};
 use leaf::Leaf;
 use line::Line;
 use node::{Member, Node, Parts};

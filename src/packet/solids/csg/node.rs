@@ -2,13 +2,13 @@
 
 use glam::Vec3;
 
-use super::boxes::{Aabb, Hierarchy};
 use super::leaf::{Leaf, Made};
 use super::line::Line;
 use super::tree::Tree;
 use super::{Crossing, Csg};
 use crate::geometry::Bounds;
 use crate::lanes::{F32x8, Mask8, Simd, U32x8, Vec3x8};
+use crate::packet::boxes::{Aabb, Hierarchy};
 
 /// A union, or an intersection.
 pub struct Node {
@@ -194,7 +194,7 @@ impl Csg {
             #[inline(always)]
             || {
                 let node = &self.nodes[node];
-                let (enter, exit) = node.aabb.clip(line);
+                let (enter, exit) = node.aabb.clip(&line.way);
                 let lanes = lanes & enter.max(after).le(exit.min(before));
                 if !lanes.any() {
                     return Crossing::none();
@@ -203,7 +203,7 @@ impl Csg {
                 let (lanes, whole) = match node.cut() {
                     None => (lanes, Crossing::none()),
                     Some(body) => {
-                        let near = node.boxes.may_meet(line, after, before, lanes);
+                        let near = node.boxes.may_meet(&line.way, after, before, lanes);
                         let far = lanes.but(near);
                         let whole = if far.any() {
                             self.nearest_of_member(body, line, after, before, far)
@@ -241,7 +241,7 @@ impl Csg {
         lanes: Mask8<S>,
     ) -> Mask8<S> {
         let node = &self.nodes[index];
-        let (enter, exit) = node.aabb.clip(line);
+        let (enter, exit) = node.aabb.clip(&line.way);
         let lanes = lanes & enter.max(after).le(exit.min(before));
         // Rays that begin or end outside of a union cross its surface if they cross any member's.
         let is_any = enter.gt(after) | exit.lt(before);
@@ -249,7 +249,7 @@ impl Csg {
         let mut hard = lanes.but(easy);
         let mut blocked = Mask8::no_lanes();
         if let Some(Member::Leaf(leaf)) = node.cut() {
-            let far = hard.but(node.boxes.may_meet(line, after, before, hard));
+            let far = hard.but(node.boxes.may_meet(&line.way, after, before, hard));
             if far.any() {
                 let found = self.leaves[leaf].blocks(&line.rays, after, before, far);
                 blocked = far & found;
@@ -258,7 +258,7 @@ impl Csg {
         }
         let mut rest = easy;
         node.boxes.along(
-            line,
+            &line.way,
             after,
             before,
             easy,
@@ -300,7 +300,7 @@ impl Csg {
         }
         let start = best.t + line.across;
         node.boxes.along(
-            line,
+            &line.way,
             after,
             start,
             lanes,

@@ -1,6 +1,6 @@
 //! Trees of solids as unions and intersections in turn, with the places of leaves multiplied out.
 
-use glam::{DAffine3, DVec2, DVec3};
+use glam::DAffine3;
 
 use crate::geometry::{self, Bounds, Csg, Operation, Root, Shape};
 
@@ -37,10 +37,7 @@ fn gather(solid: &dyn geometry::Solid, place: DAffine3, is_turned: bool) -> Tree
     match solid.shape() {
         Shape::Csg(csg) => gather_csg(csg, place, is_turned),
         Shape::Placed(placed) => gather(placed.solid(), place * placed.transform(), is_turned),
-        shape => {
-            let bounds = bounds(&shape, solid, &place);
-            Tree::Leaf(Placed { solid, place, is_turned, bounds })
-        }
+        _ => Tree::Leaf(Placed { solid, place, is_turned, bounds: Bounds::placed(solid, &place) }),
     }
 }
 
@@ -108,36 +105,5 @@ impl Placed<'_> {
     /// Whether this is the solid itself.
     pub fn is_bare(&self) -> bool {
         self.place == DAffine3::IDENTITY && !self.is_turned
-    }
-}
-
-/// The smallest box round a solid in its place; a turned box would be larger than what is in it.
-fn bounds(shape: &Shape, solid: &dyn geometry::Solid, place: &DAffine3) -> Bounds {
-    // A disk or ball of radius 1 along some axes reaches as far as their common length.
-    let reach = |axes: &[DVec3]| axes.iter().map(|axis| axis * axis).sum::<DVec3>().map(f64::sqrt);
-    let round = |middle: DVec3, reach: DVec3| {
-        let middle = place.transform_point3(middle);
-        Bounds { min: middle - reach, max: middle + reach }
-    };
-    let axes = place.matrix3;
-    match shape {
-        Shape::Sphere(sphere) => {
-            round(sphere.center, reach(&[axes.x_axis, axes.y_axis, axes.z_axis]) * sphere.radius)
-        }
-        Shape::Lathe(lathe) => {
-            let disk = reach(&[axes.x_axis, axes.z_axis]);
-            let ends = lathe.segments().iter().flat_map(|segment| [segment.from, segment.to]);
-            ends.map(|end: DVec2| round(DVec3::Y * end.y, disk * end.x))
-                .fold(Bounds::EMPTY, Bounds::union)
-        }
-        Shape::Prism(prism) => {
-            let own = solid.bounds();
-            let ends = prism.segments().iter().map(|segment| segment.from);
-            Bounds::of(
-                ends.flat_map(|end| [end.extend(own.min.z), end.extend(own.max.z)])
-                    .map(|corner| place.transform_point3(corner)),
-            )
-        }
-        _ => solid.bounds().transformed(place),
     }
 }

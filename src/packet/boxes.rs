@@ -1,16 +1,42 @@
-//! Boxes round solids, and a tree of them.
+//! Boxes round what rays may meet, and a tree of them.
 
 use glam::{DVec3, Vec3};
 
-use super::line::Line;
+use super::Rays;
 use crate::geometry::Bounds;
 use crate::lanes::{F32x8, Mask8, Simd, Vec3x8};
+
+/// Rays as boxes ask for them.
+#[derive(Clone, Copy)]
+pub struct Way<S: Simd> {
+    origin: Vec3x8<S>,
+    /// The directions' reciprocals.
+    pub per_length: Vec3x8<S>,
+    /// Which lanes go down along each axis.
+    falls: [u8; 3],
+}
+
+impl<S: Simd> Way<S> {
+    #[inline(always)]
+    pub fn new(rays: &Rays<S>) -> Way<S> {
+        let (direction, zero) = (rays.direction, F32x8::splat(0.0));
+        Way {
+            origin: rays.origin,
+            per_length: direction.recips(),
+            falls: [
+                direction.x.lt(zero).bits(),
+                direction.y.lt(zero).bits(),
+                direction.z.lt(zero).bits(),
+            ],
+        }
+    }
+}
 
 /// A box along the axes, a little larger than what it holds.
 #[derive(Clone, Copy)]
 pub struct Aabb {
-    min: Vec3,
-    max: Vec3,
+    pub min: Vec3,
+    pub max: Vec3,
 }
 
 /// How much larger, for solids within `bounds`: more than rounding errors.
@@ -24,6 +50,10 @@ impl Aabb {
         Aabb { min: (bounds.min - margin).as_vec3(), max: (bounds.max + margin).as_vec3() }
     }
 
+    pub fn bounds(&self) -> Bounds {
+        Bounds { min: self.min.as_dvec3(), max: self.max.as_dvec3() }
+    }
+
     /// The middle; that of endless boxes is the origin.
     pub fn middle(&self) -> Vec3 {
         let middle = (self.min + self.max) / 2.0;
@@ -32,15 +62,22 @@ impl Aabb {
 
     /// Where lines enter and leave; what misses leaves before it enters.
     #[inline(always)]
-    pub fn clip<S: Simd>(&self, line: &Line<S>) -> (F32x8<S>, F32x8<S>) {
-        let low = (Vec3x8::splat(self.min) - line.rays.origin).times(line.per_length);
-        let high = (Vec3x8::splat(self.max) - line.rays.origin).times(line.per_length);
+    pub fn clip<S: Simd>(&self, way: &Way<S>) -> (F32x8<S>, F32x8<S>) {
+        let low = (Vec3x8::splat(self.min) - way.origin).times(way.per_length);
+        let high = (Vec3x8::splat(self.max) - way.origin).times(way.per_length);
         // Along an axis and within a face a distance may be no number: then it counts for nothing.
         let (near, far) = (low.min(high), low.max(high));
         let infinity = F32x8::splat(f32::INFINITY);
         let enter = near.x.max(near.y.max(near.z.max(-infinity)));
         let exit = far.x.min(far.y.min(far.z.min(infinity)));
         (enter, exit)
+    }
+
+    /// Which lines meet it between `after` and `before`.
+    #[inline(always)]
+    pub fn may_meet<S: Simd>(&self, way: &Way<S>, after: F32x8<S>, before: F32x8<S>) -> Mask8<S> {
+        let (enter, exit) = self.clip(way);
+        enter.max(after).le(exit.min(before))
     }
 
     /// Whether points lie inside.
@@ -115,7 +152,7 @@ impl Hierarchy {
     #[inline(always)]
     pub fn may_meet<S: Simd>(
         &self,
-        line: &Line<S>,
+        way: &Way<S>,
         after: F32x8<S>,
         before: F32x8<S>,
         lanes: Mask8<S>,
@@ -123,8 +160,7 @@ impl Hierarchy {
         let Some(whole) = self.boxes.first() else {
             return Mask8::no_lanes();
         };
-        let (enter, exit) = whole.aabb.clip(line);
-        lanes & enter.max(after).le(exit.min(before))
+        lanes & whole.aabb.may_meet(way, after, before)
     }
 
     /// Visits the items whose boxes the lines of `lanes` meet between `after` and `before`, the nearer half
@@ -133,7 +169,7 @@ impl Hierarchy {
     #[inline(always)]
     pub fn along<S: Simd>(
         &self,
-        line: &Line<S>,
+        way: &Way<S>,
         after: F32x8<S>,
         mut before: F32x8<S>,
         mut lanes: Mask8<S>,
@@ -144,8 +180,7 @@ impl Hierarchy {
         let mut pending = Pending::new(lanes.any() && !self.boxes.is_empty());
         while let Some(index) = pending.pop() {
             let branch = &self.boxes[index as usize];
-            let (enter, exit) = branch.aabb.clip(line);
-            let meets = lanes & enter.max(after).le(exit.min(before));
+            let meets = lanes & branch.aabb.may_meet(way, after, before);
             if !meets.any() {
                 continue;
             }
@@ -154,7 +189,7 @@ impl Hierarchy {
                 if !lanes.any() {
                     return;
                 }
-            } else if line.falls[branch.axis] & first != 0 {
+            } else if way.falls[branch.axis] & first != 0 {
                 pending.push(index + 1);
                 pending.push(branch.second);
             } else {
