@@ -86,7 +86,9 @@ impl Lights {
     /// The sky in directions with the upward parts `upward`, −1 to 1.
     #[inline(always)]
     fn sky<S: Simd>(&self, upward: F32x8<S>) -> Vec3x8<S> {
-        let [horizon, middle, zenith] = self.sky.map(Vec3x8::splat);
+        let [horizon, middle, zenith] = self.sky;
+        let (horizon, middle, zenith) =
+            (Vec3x8::splat(horizon), Vec3x8::splat(middle), Vec3x8::splat(zenith));
         let (one, two) = (F32x8::splat(1.0), F32x8::splat(2.0));
         let low = horizon.lerp(middle, two * upward);
         let high = middle.lerp(zenith, two * upward - one);
@@ -113,7 +115,7 @@ impl LightBox {
     #[inline(always)]
     pub fn points<S: Simd>(&self, (across, along): (F32x8<S>, F32x8<S>)) -> Vec3x8<S> {
         let (one, two) = (F32x8::splat(1.0), F32x8::splat(2.0));
-        let [wide, tall] = self.half.map(Vec3x8::splat);
+        let (wide, tall) = (Vec3x8::splat(self.half[0]), Vec3x8::splat(self.half[1]));
         Vec3x8::splat(self.center) + wide * (two * across - one) + tall * (two * along - one)
     }
 
@@ -136,7 +138,7 @@ impl LightBox {
         let blur = distance * roughness.max(F32x8::splat(0.01)) * F32x8::splat(SQRT_2);
         // Farther off than this beyond the edges there is less than a picture can show.
         let beyond = F32x8::splat(4.0) * blur;
-        let [wide, tall] = self.lengths.map(F32x8::splat);
+        let (wide, tall) = (F32x8::splat(self.lengths[0]), F32x8::splat(self.lengths[1]));
         let across = met.dot(Vec3x8::splat(self.half[0])) / wide;
         let along = met.dot(Vec3x8::splat(self.half[1])) / tall;
         let near = lanes

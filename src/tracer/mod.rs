@@ -15,6 +15,7 @@ mod lights;
 mod materials;
 mod optics;
 mod oracle;
+mod outlook;
 mod phong;
 mod pinhole;
 mod pixel;
