@@ -98,7 +98,8 @@ impl Stage {
         Ok(Stage {
             pieces: Role::ALL.map(|role| {
                 let solid = Arc::new(set.men()[role as usize - 1].clone());
-                let turned = |color| facing.turn(Piece { role, color }) * translation(DVec3::Y * FELT);
+                let turned =
+                    |color| facing.turn(Piece { role, color }) * translation(DVec3::Y * FELT);
                 [Color::White, Color::Black].map(|color| Placed::new(solid.clone(), turned(color)))
             }),
             surfaces: [materials.surface(&scheme.white)?, materials.surface(&scheme.black)?],

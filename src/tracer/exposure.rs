@@ -3,6 +3,7 @@
 use glam::{DVec3, Vec3};
 
 use super::eye::Eye;
+use super::outlook::{Known, Outlook};
 use super::pixel::{Pixel, Stored};
 use super::plane::{Plane, Spot};
 use super::sketch::Painter;
@@ -19,8 +20,8 @@ pub const LENS: u32 = 1;
 /// No fewer samples are believed.
 const FEWEST: u32 = 4;
 
-/// Samples that differ by no more than this part of the error that is small enough are the same.
-const SAME: f64 = 0.15;
+/// With so many times the first samples an error may be as great as the threshold.
+const ENOUGH: f64 = 1.25;
 
 /// Pixels side by side whose brightness differs by more are looked at again: a hairline may have been
 /// missed in one of them.
@@ -36,6 +37,8 @@ pub struct Sample {
     pub index: u32,
     /// Whether it goes through the pixel's middle, being the only one.
     pub is_centered: bool,
+    /// What it need not ask.
+    pub known: Known,
 }
 
 /// What a single ray from the camera brings back.
@@ -45,11 +48,18 @@ pub struct Glimpse {
     pub light: Vec3,
     /// How much of the background it hides, 0 to 1.
     pub cover: f32,
+    pub outlook: Outlook,
 }
 
 impl Glimpse {
-    pub fn new(light: Vec3, cover: f32) -> Glimpse {
-        Glimpse { light: light.min(Vec3::splat(BRIGHTEST)), cover }
+    pub fn new(light: Vec3, cover: f32, outlook: Outlook) -> Glimpse {
+        Glimpse { light: light.min(Vec3::splat(BRIGHTEST)), cover, outlook }
+    }
+
+    /// The light when of that of an open sky there is so much by channel.
+    fn under(&self, share_of_sky: Option<Vec3>) -> Vec3 {
+        let Outlook { sky, open_sky, .. } = self.outlook;
+        share_of_sky.map_or(self.light, |share| self.light - sky + open_sky * share)
     }
 }
 
@@ -84,6 +94,7 @@ pub struct Sum {
     squares: f64,
     /// Of the square of what they cover.
     covers: f64,
+    outlook: Outlook,
 }
 
 /// How bright light looks, 0 to 1: a square root is near enough.
@@ -92,9 +103,8 @@ fn shown(light: DVec3) -> f64 {
 }
 
 impl Sizes {
-    /// Of a grid the number of rays alone counts; adaptive, a pixel begins with a quarter of them (and
-    /// stops before where the first are all the same), and goes on while the error of its mean seems
-    /// greater than the threshold.
+    /// Of a grid the number of rays alone counts; adaptive, a pixel begins with a few, and goes on while the error
+    /// of its mean seems too great. Before a quarter of them it stops only where it is like the pixels beside it.
     pub fn new(scene: &Scene, mode: Antialiasing) -> Sizes {
         let (first, most, error) = match mode {
             Antialiasing::None => (1, 1, -1.0),
@@ -115,17 +125,25 @@ impl Sizes {
         f64::from(self.first).sqrt().min(4.0)
     }
 
-    /// Whether a pixel needs more samples. If its first few are all the same, and about those of the pixels
-    /// beside, they are believed.
-    fn wants_more(&self, sum: &Sum, differs: bool) -> bool {
-        let small_enough = match (sum.count < self.first, self.has_lens) {
-            (true, _) if differs => -1.0,
-            (true, _) => SAME * self.error,
-            // What a lens blurs is made of few bright samples among many.
-            (false, true) => self.error / 2.0,
-            (false, false) => self.error,
-        };
-        sum.count < self.most && sum.error() > small_enough
+    /// Whether a pixel needs more samples. `around` are the first looks at it and at the pixels beside it: where
+    /// they spread, its own few may be alike by chance.
+    ///
+    /// An error may be the greater the more samples it took. So each sample goes where it brings most, since
+    /// halving an error takes four times as many.
+    fn wants_more(&self, sum: &Sum, around: &Sum, differs: bool) -> bool {
+        if sum.count >= self.most {
+            return false;
+        }
+        if differs && sum.count < self.first {
+            return true;
+        }
+        let mut error = sum.error();
+        if sum.count == self.few {
+            error = error.max(around.deviation() / f64::from(self.few).sqrt());
+        }
+        // What a lens blurs is made of few bright samples among many.
+        let small = if self.has_lens { self.error / 2.0 } else { self.error };
+        error > small * f64::from(sum.count) / (ENOUGH * f64::from(self.first))
     }
 }
 
@@ -141,18 +159,20 @@ impl<E: Eye<[Sample], Glimpse>> Exposure<E> {
         &self,
         spots: &[Spot],
         some: &[usize],
+        known: &[Known],
         wanted: impl Fn(&Sum) -> u32,
         sums: &mut [Sum],
         ties: Option<&mut [Ties]>,
     ) -> RayCounts {
         let is_centered = self.sizes.most == 1;
-        let samples: Vec<Sample> = some
-            .iter()
-            .flat_map(|pixel| {
-                let (spot, sum) = (spots[*pixel], &sums[*pixel]);
-                (sum.count..wanted(sum)).map(move |index| Sample { spot, index, is_centered })
-            })
-            .collect();
+        let mut samples = Vec::new();
+        for pixel in some {
+            let (spot, sum) = (spots[*pixel], &sums[*pixel]);
+            let known = known.get(*pixel).copied().unwrap_or_default();
+            for index in sum.count..wanted(sum) {
+                samples.push(Sample { spot, index, is_centered, known });
+            }
+        }
         let mut seen = Vec::with_capacity(samples.len());
         let mut each = ties.is_some().then(Vec::new);
         let counts = self.eye.see(&samples, &mut seen, each.as_mut());
@@ -161,9 +181,10 @@ impl<E: Eye<[Sample], Glimpse>> Exposure<E> {
             let sum = &mut sums[*pixel];
             let range = next..next + (wanted(sum) - sum.count) as usize;
             next = range.end;
-            for glimpse in &seen[range.clone()] {
-                sum.add(*glimpse, self.behind);
-            }
+            let seen = &seen[range.clone()];
+            // First looks at a pixel see the same sky, which their error leaves out.
+            let sky = if sum.count == 0 { share_of_sky(seen) } else { None };
+            seen.iter().for_each(|glimpse| sum.add(glimpse, sky, self.behind));
             if let (Some(ties), Some(each)) = (&mut ties, &each) {
                 ties[*pixel].add(&each[range].iter().collect());
             }
@@ -172,12 +193,13 @@ impl<E: Eye<[Sample], Glimpse>> Exposure<E> {
     }
 
     /// What the samples show: their light through the tone curve, over the background.
-    fn developed(&self, sum: &Sum) -> Pixel {
+    fn developed(&self, sum: &Sum, share_of_sky: Option<Vec3>) -> Pixel {
+        let light = sum.light_under(share_of_sky);
         let cover = sum.cover / f64::from(sum.count);
         let color = if cover == 0.0 {
             Rgb::ZERO
         } else {
-            tone::stored(tone::neutral(sum.light / sum.cover)) * cover
+            tone::stored(tone::neutral(light / sum.cover)) * cover
         };
         match self.background {
             Some(background) => {
@@ -194,8 +216,8 @@ impl<E: Eye<[Sample], Glimpse>> Painter for Exposure<E> {
 
     fn nothing(&self) -> (Sum, Stored) {
         let mut nothing = Sum::default();
-        (0..self.sizes.few).for_each(|_| nothing.add(Glimpse::default(), self.behind));
-        (nothing, self.developed(&nothing).stored())
+        (0..self.sizes.few).for_each(|_| nothing.add(&Glimpse::default(), None, self.behind));
+        (nothing, self.developed(&nothing, None).stored())
     }
 
     fn looks_first(&self) -> bool {
@@ -209,7 +231,7 @@ impl<E: Eye<[Sample], Glimpse>> Painter for Exposure<E> {
             ties.resize(spots.len(), Ties::default());
             &mut ties[..]
         });
-        self.add(spots, &all, |_| self.sizes.few, made, ties)
+        self.add(spots, &all, &[], |_| self.sizes.few, made, ties)
     }
 
     /// Adds samples to pixels until their errors are small enough.
@@ -228,16 +250,33 @@ impl<E: Eye<[Sample], Glimpse>> Painter for Exposure<E> {
             looks.round(spots[index]).any(|there| (there.shown() - shown).abs() > CONTRAST)
         };
         let differs: Vec<bool> = (0..spots.len()).map(differs).collect();
+        let around = |spot: &Spot| {
+            let mut around = Sum::default();
+            looks.round(*spot).for_each(|there| around.merge(&there));
+            around
+        };
+        let around: Vec<Sum> = spots.iter().map(around).collect();
+        // What is even is lit evenly.
+        let known = |(around, differs): (&Sum, &bool)| {
+            if *differs { Known::default() } else { around.outlook.known() }
+        };
+        let known: Vec<Known> = around.iter().zip(&differs).map(known).collect();
         loop {
-            let wants = |index: &usize| self.sizes.wants_more(&sums[*index], differs[*index]);
-            let some: Vec<usize> = (0..spots.len()).filter(wants).collect();
+            let wants = |index: &usize| {
+                self.sizes.wants_more(&sums[*index], &around[*index], differs[*index])
+            };
+            let mut some: Vec<usize> = (0..spots.len()).filter(wants).collect();
             if some.is_empty() {
                 break;
             }
+            // Those that ask the same make full packets.
+            some.sort_by_key(|index| known[*index].answered());
             let wanted = |sum: &Sum| (2 * sum.count).min(self.sizes.most);
-            counts = counts + self.add(spots, &some, wanted, &mut sums, each.as_deref_mut());
+            counts =
+                counts + self.add(spots, &some, &known, wanted, &mut sums, each.as_deref_mut());
         }
-        made.extend(sums.iter().map(|sum| self.developed(sum).stored()));
+        let developed = |(sum, known): (&Sum, &Known)| self.developed(sum, known.sky).stored();
+        made.extend(sums.iter().zip(&known).map(developed));
         if let (Some(ties), Some(each)) = (ties, each) {
             ties.extend(each);
         }
@@ -249,14 +288,26 @@ impl<E: Eye<[Sample], Glimpse>> Painter for Exposure<E> {
     }
 }
 
+/// Of the light of an open sky what there is of it in all samples together, by channel.
+fn share_of_sky(seen: &[Glimpse]) -> Option<Vec3> {
+    let mut outlook = Outlook::default();
+    seen.iter().for_each(|glimpse| outlook.add(&glimpse.outlook));
+    outlook.share_of_sky()
+}
+
 impl Sum {
-    /// Adds a sample, before a background that looks as bright as `behind`.
-    fn add(&mut self, Glimpse { light, cover }: Glimpse, behind: Option<f64>) {
-        let (light, cover) = (light.as_dvec3(), f64::from(cover));
+    /// Adds a sample, before a background that looks as bright as `behind`. Its error is as of what is seen
+    /// under a sky of that share.
+    fn add(&mut self, glimpse: &Glimpse, share_of_sky: Option<Vec3>, behind: Option<f64>) {
+        let (light, cover) = (glimpse.light.as_dvec3(), f64::from(glimpse.cover));
         self.count += 1;
         self.light += light * cover;
         self.cover += cover;
-        let shown = shown(light) * cover + behind.unwrap_or(0.0) * (1.0 - cover);
+        let mut outlook = glimpse.outlook;
+        outlook.weigh(Vec3::splat(glimpse.cover));
+        self.outlook.add(&outlook);
+        let shown = shown(glimpse.under(share_of_sky).as_dvec3()) * cover
+            + behind.unwrap_or(0.0) * (1.0 - cover);
         self.shown += shown;
         self.squares += shown * shown;
         if behind.is_none() {
@@ -264,20 +315,41 @@ impl Sum {
         }
     }
 
+    /// The light when of that of an open sky there is so much by channel.
+    fn light_under(&self, share_of_sky: Option<Vec3>) -> DVec3 {
+        let Outlook { sky, open_sky, .. } = self.outlook;
+        share_of_sky.map_or(self.light, |share| self.light + (open_sky * share - sky).as_dvec3())
+    }
+
     /// How bright the mean looks.
     fn shown(&self) -> f64 {
         self.shown / f64::from(self.count)
     }
 
-    /// The standard error of how bright the mean looks, or of how much is covered of what is
-    /// transparent, as of samples that know nothing of each other; these are more even, and err less.
-    fn error(&self) -> f64 {
+    /// Adds the samples of another pixel.
+    fn merge(&mut self, other: &Sum) {
+        self.count += other.count;
+        self.light += other.light;
+        self.cover += other.cover;
+        self.shown += other.shown;
+        self.squares += other.squares;
+        self.covers += other.covers;
+        self.outlook.add(&other.outlook);
+    }
+
+    /// The standard deviation of how bright samples look, or of how much they cover of what is transparent.
+    fn deviation(&self) -> f64 {
         let count = f64::from(self.count);
-        let error = |sum: f64, squares: f64| {
+        let deviation = |sum: f64, squares: f64| {
             let mean = sum / count;
-            let variance = (squares / count - mean * mean).max(0.0);
-            (variance / (count - 1.0).max(1.0)).sqrt()
+            (squares / count - mean * mean).max(0.0).sqrt()
         };
-        error(self.shown, self.squares).max(error(self.cover, self.covers))
+        deviation(self.shown, self.squares).max(deviation(self.cover, self.covers))
+    }
+
+    /// The standard error of the mean, as of samples that know nothing of each other; these are more even, and
+    /// err less.
+    fn error(&self) -> f64 {
+        self.deviation() / (f64::from(self.count) - 1.0).max(1.0).sqrt()
     }
 }

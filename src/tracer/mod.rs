@@ -19,6 +19,7 @@ mod mask;
 mod materials;
 mod optics;
 mod oracle;
+mod outlook;
 mod phong;
 mod pinhole;
 mod pixel;

@@ -1,8 +1,8 @@
 //! Soft light: a coloured ground under a clear coat, in a room with softboxes and a sky.
 //!
 //! Every sample of a pixel asks each softbox at one point, the sky in one direction, and the mirror in
-//! one. What nothing stands in the way of is known without samples, so a plain that sees the whole
-//! sky has no noise.
+//! one, but for what is known from others ([`super::outlook`]). What nothing stands in the way of is known
+//! without samples, so a plain that sees the whole sky has no noise.
 
 use glam::Vec3;
 
@@ -11,6 +11,7 @@ use super::exposure::{Glimpse, LENS, PLACE, Sample};
 use super::eye::Eye;
 use super::lights::Lights;
 use super::optics::{facing, fresnel, grazing, mirrored, refracted};
+use super::outlook::{self, Known, Outlooks};
 use super::pinhole::Pinhole;
 use super::sequence::{Sequence, Sequences};
 use super::ties::{Ties, Ties8};
@@ -101,6 +102,7 @@ struct Meet<S: Simd> {
 struct Draw<S: Simd> {
     numbers: Sequences<S>,
     counts: RayCounts,
+    outlooks: Outlooks<S>,
     /// What they depend on, where that is asked for.
     ties: Option<Ties8<S>>,
 }
@@ -138,12 +140,15 @@ impl<'a> Studio<'a> {
         seen: &mut Vec<Glimpse>,
         ties: Option<&mut Vec<Ties>>,
     ) -> RayCounts {
-        let sample = |lane: usize| samples[lane.min(samples.len() - 1)];
-        let sample: [Sample; 8] = std::array::from_fn(sample);
-        let x = U32x8::<S>::load(&sample.map(|sample| sample.spot[0]));
-        let y = U32x8::load(&sample.map(|sample| sample.spot[1]));
-        let numbers = Sequences::new(x, y, U32x8::load(&sample.map(|sample| sample.index)));
-        let lanes = Mask8::from_bits((0xFF_u32 >> (LANES - samples.len())) as u8);
+        let ([mut x, mut y, mut index], mut known) = ([[0; 8]; 3], [Known::default(); 8]);
+        for lane in 0..LANES {
+            let sample = &samples[lane.min(samples.len() - 1)];
+            [x[lane], y[lane]] = sample.spot;
+            (index[lane], known[lane]) = (sample.index, sample.known);
+        }
+        let (x, y) = (U32x8::<S>::load(&x), U32x8::load(&y));
+        let numbers = Sequences::new(x, y, U32x8::load(&index));
+        let lanes = Mask8::first(samples.len());
         let rays = if self.world.scene.camera.has_lens() {
             self.rays_through_lens(samples)
         } else {
@@ -170,6 +175,7 @@ impl<'a> Studio<'a> {
         let mut draw = Draw {
             numbers,
             counts: RayCounts { primary: samples.len() as u64, ..RayCounts::default() },
+            outlooks: Outlooks::new(&known),
             ties: found,
         };
         let meeting = self.nearest(&rays, lanes, &mut draw);
@@ -186,10 +192,14 @@ impl<'a> Studio<'a> {
             cover = (hit & endless).select(one - melted(rays.at(meeting.t)), cover);
         }
         let (light, cover, hit) = (light.store(), cover.store(), hit.bits());
-        seen.extend((0..samples.len()).map(|lane| {
-            let is_hit = hit >> lane & 1 == 1;
-            if is_hit { Glimpse::new(light[lane], cover[lane]) } else { Glimpse::default() }
-        }));
+        let outlooks = draw.outlooks.store();
+        for lane in 0..samples.len() {
+            let mut glimpse = Glimpse::default();
+            if hit >> lane & 1 == 1 {
+                glimpse = Glimpse::new(light[lane], cover[lane], outlooks[lane]);
+            }
+            seen.push(glimpse);
+        }
         draw.tell(samples.len(), ties);
         draw.counts
     }
@@ -198,7 +208,8 @@ impl<'a> Studio<'a> {
     fn rays_through_lens<S: Simd>(&self, samples: &[Sample]) -> Rays<S> {
         let ([width, height], camera) = (self.size, &self.world.scene.camera);
         let rays: [crate::geometry::Ray; 8] = std::array::from_fn(|lane| {
-            let Sample { spot: [x, y], index, is_centered } = samples[lane.min(samples.len() - 1)];
+            let Sample { spot: [x, y], index, is_centered, .. } =
+                samples[lane.min(samples.len() - 1)];
             let numbers = Sequence::new(x, y, index);
             let (dx, dy) = if is_centered { (0.5, 0.5) } else { numbers.pair(PLACE) };
             let ray = camera.ray(f64::from(x) + dx, f64::from(y) + dy, width, height);
@@ -249,6 +260,9 @@ impl<'a> Studio<'a> {
                 let mut sum = Vec3x8::zero();
                 if clear.any() {
                     sum = self.glass(&Flight { lanes: clear, ..*flight }, &meet, draw);
+                    if flight.depth == 0 {
+                        draw.outlooks.weigh(Vec3x8::zero());
+                    }
                 }
                 let opaque = lanes.but(clear);
                 if !opaque.any() {
@@ -261,6 +275,10 @@ impl<'a> Studio<'a> {
                 if dull.any() {
                     let gathered = self.gathered(&Flight { lanes: dull, ..*flight }, &meet, draw);
                     ground = meet.color.times(gathered) * dull.keep(F32x8::splat(GROUND as f32));
+                }
+                if flight.depth == 0 {
+                    let shown = meet.color * dull.keep(F32x8::splat(GROUND as f32));
+                    draw.outlooks.weigh(shown);
                 }
                 let coat = materials.coat(meet.material);
                 let coated = dull & coat.gt(one);
@@ -275,6 +293,9 @@ impl<'a> Studio<'a> {
                 let tinted = meet.color.lerp(Vec3x8::grey(one), grazing(cosine));
                 let shares = Vec3x8::select(metal, tinted, Vec3x8::grey(share));
                 let above = self.mirror(&Flight { lanes: glossy, ..*flight }, &meet, shares, draw);
+                if flight.depth == 0 {
+                    draw.outlooks.weigh(Vec3x8::grey(one - share));
+                }
                 let opaque = ground * (one - share) + above;
                 Vec3x8::select(clear, sum, opaque)
             },
@@ -307,12 +328,26 @@ impl<'a> Studio<'a> {
                         continue;
                     }
                     let mut share = lit.keep(cosine);
-                    let asking = lit & shaded;
+                    let mut asking = lit & shaded;
+                    let is_noted = flight.depth == 0 && number < outlook::MIRROR as usize;
+                    if is_noted {
+                        let [free, hidden] = draw.outlooks.known(number as u32);
+                        asking = asking.but(free | hidden);
+                        share = hidden.select(F32x8::splat(0.0), share);
+                    }
                     if asking.any() {
                         draw.counts.shadow += u64::from(asking.bits().count_ones());
                         let way = Rays { origin: meet.leaving, direction: towards };
                         let open = self.world.transmission(&way, distance, asking, &mut draw.ties);
                         share = asking.select(share * open, share);
+                        if is_noted {
+                            let (is_free, is_hidden) = (open.gt(zero), open.lt(F32x8::splat(1.0)));
+                            draw.outlooks.found(
+                                number as u32,
+                                asking & is_free,
+                                asking & is_hidden,
+                            );
+                        }
                     }
                     sum += Vec3x8::splat(light.color) * share;
                 }
@@ -333,6 +368,32 @@ impl<'a> Studio<'a> {
         if flight.depth > 0 {
             return brightness * (share * F32x8::splat(FREE_SKY as f32));
         }
+        let one = F32x8::splat(1.0);
+        let bounce = F32x8::splat(self.lights.bounce);
+        let ground = Vec3x8::grey(F32x8::splat(FAR_GROUND as f32) * bounce);
+        let open = brightness * share + ground * (one - share);
+        let known = flight.lanes & draw.outlooks.knows_sky;
+        let mut sky = Vec3x8::select(known, open.times(draw.outlooks.share_of_sky), Vec3x8::zero());
+        let unknown = flight.lanes.but(known);
+        if unknown.any() {
+            let asked =
+                self.asked_sky(&Flight { lanes: unknown, ..*flight }, meet, brightness, draw);
+            sky = Vec3x8::select(unknown, asked, sky);
+        }
+        draw.outlooks.sky = sky;
+        draw.outlooks.open_sky = Vec3x8::select(flight.lanes, open, Vec3x8::zero());
+        sky
+    }
+
+    /// What comes from the sky, and from other surfaces that hide it, by one ray each.
+    #[inline(always)]
+    fn asked_sky<S: Simd>(
+        &self,
+        flight: &Flight<S>,
+        meet: &Meet<S>,
+        brightness: Vec3x8<S>,
+        draw: &mut Draw<S>,
+    ) -> Vec3x8<S> {
         let zero = F32x8::splat(0.0);
         let direction = scattered(meet.normal, draw.numbers.pair(purpose::SKY));
         let asking = flight.lanes & direction.dot(meet.outward).gt(zero);
@@ -380,6 +441,10 @@ impl<'a> Studio<'a> {
                 if flight.depth < self.world.scene.max_depth {
                     followed = lanes & weight.ge(F32x8::splat(MIRRORS_FROM as f32));
                 }
+                if flight.depth == 0 {
+                    let [free, _] = draw.outlooks.known(outlook::MIRROR);
+                    followed = followed.but(free);
+                }
                 if followed.any() {
                     let from = flight.depth * purpose::STEP;
                     let pair = draw.numbers.pair(from + purpose::MIRROR);
@@ -389,7 +454,11 @@ impl<'a> Studio<'a> {
                     let rays = Rays { origin: meet.leaving, direction };
                     draw.counts.reflected += u64::from(followed.bits().count_ones());
                     let meeting = self.nearest(&rays, followed, draw);
-                    followed = followed & meeting.lanes();
+                    let met = followed & meeting.lanes();
+                    if flight.depth == 0 {
+                        draw.outlooks.found(outlook::MIRROR, followed.but(met), met);
+                    }
+                    followed = met;
                     if followed.any() {
                         let next = Flight {
                             rays,

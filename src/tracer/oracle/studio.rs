@@ -6,7 +6,7 @@
 
 use std::f64::consts::TAU;
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 use super::optics::{facing, fresnel, grazing, mirrored, refracted};
 use super::world::{OFFSET, World};
@@ -15,6 +15,7 @@ use crate::scene::{MIDDLE, Material, Rgb, Room, Scene, linear_light};
 use crate::tracer::RayCounts;
 use crate::tracer::exposure::{Glimpse, LENS, PLACE, Sample};
 use crate::tracer::eye::Eye;
+use crate::tracer::outlook::{self, Known, Outlook};
 use crate::tracer::sequence::Sequence;
 use crate::tracer::studio::{
     BRIGHTEST_IN_A_MIRROR, FAR_GROUND, FREE_SKY, GROUND, HIDES, MELTS, MIRRORS_FROM, PAPER,
@@ -48,6 +49,14 @@ struct Flight {
     spread: f64,
 }
 
+/// What a sample is made with.
+struct Draw {
+    numbers: Sequence,
+    known: Known,
+    counts: RayCounts,
+    outlook: Outlook,
+}
+
 /// A place where a ray meets a surface.
 struct Meeting<'a> {
     point: DVec3,
@@ -69,18 +78,18 @@ impl<'a> Studio<'a> {
 
     /// What comes back along a ray from the camera, which stands for a width of `spread` at
     /// distance 1.
-    fn trace(&self, ray: Ray, spread: f64, numbers: &Sequence, counts: &mut RayCounts) -> Glimpse {
-        counts.primary += 1;
+    fn trace(&self, ray: Ray, spread: f64, draw: &mut Draw) -> Glimpse {
+        draw.counts.primary += 1;
         let index = self.world.index_at(ray.origin);
         let flight = Flight { ray, depth: 0, length: 0.0, weight: 1.0, index, spread };
         let Some((object, hit)) = self.nearest(&ray) else {
             return Glimpse::default();
         };
-        let light = self.light(&flight, object, hit, numbers, counts);
+        let light = self.light(&flight, object, hit, draw);
         let body = &self.world.scene.objects[object].body;
         let is_endless = !body.bounds().is_finite();
         let cover = if is_endless { 1.0 - melted(ray.at(hit.t)) } else { 1.0 };
-        Glimpse::new(light.as_vec3(), cover as f32)
+        Glimpse::new(light.as_vec3(), cover as f32, draw.outlook)
     }
 
     fn nearest(&self, ray: &Ray) -> Option<(usize, Hit)> {
@@ -88,22 +97,15 @@ impl<'a> Studio<'a> {
     }
 
     /// The light that comes back along a ray that met something, or nothing.
-    fn radiance(&self, flight: &Flight, numbers: &Sequence, counts: &mut RayCounts) -> Rgb {
+    fn radiance(&self, flight: &Flight, draw: &mut Draw) -> Rgb {
         match self.nearest(&flight.ray) {
-            Some((object, hit)) => self.light(flight, object, hit, numbers, counts),
+            Some((object, hit)) => self.light(flight, object, hit, draw),
             None => self.background,
         }
     }
 
     /// The light from a hit.
-    fn light(
-        &self,
-        flight: &Flight,
-        object: usize,
-        hit: Hit,
-        numbers: &Sequence,
-        counts: &mut RayCounts,
-    ) -> Rgb {
+    fn light(&self, flight: &Flight, object: usize, hit: Hit, draw: &mut Draw) -> Rgb {
         let object = &self.world.scene.objects[object];
         let ray = &flight.ray;
         let point = ray.at(hit.t);
@@ -120,35 +122,39 @@ impl<'a> Studio<'a> {
         };
         let cosine = -ray.direction.dot(normal);
         if material.finish.transparency > 0.0 {
-            return self.glass(flight, &meeting, hit.t, numbers, counts);
+            let light = self.glass(flight, &meeting, hit.t, draw);
+            if flight.depth == 0 {
+                draw.outlook.weigh(Vec3::ZERO);
+            }
+            return light;
         }
         let coat = &material.coat;
         if coat.metal {
             let share = meeting.color.lerp(Rgb::ONE, grazing(cosine));
-            return self.mirror(flight, &meeting, hit.t, share, numbers, counts);
+            return self.mirror(flight, &meeting, hit.t, share, draw);
         }
-        let ground = meeting.color * GROUND * self.gathered(flight, &meeting, numbers, counts);
+        let ground = meeting.color * GROUND * self.gathered(flight, &meeting, draw);
+        if flight.depth == 0 {
+            draw.outlook.weigh((meeting.color * GROUND).as_vec3());
+        }
         if coat.coat <= 1.0 {
             return ground;
         }
         // A rough coat has no grazing glare: part of it is always seen from its side.
         let share = fresnel(cosine, coat.coat) * (1.0 - 0.5 * coat.roughness);
-        let above = self.mirror(flight, &meeting, hit.t, Rgb::splat(share), numbers, counts);
+        if flight.depth == 0 {
+            draw.outlook.weigh(Vec3::splat(1.0 - share as f32));
+        }
+        let above = self.mirror(flight, &meeting, hit.t, Rgb::splat(share), draw);
         ground * (1.0 - share) + above
     }
 
     /// The light that falls on a surface, as seen on white.
-    fn gathered(
-        &self,
-        flight: &Flight,
-        meeting: &Meeting,
-        numbers: &Sequence,
-        counts: &mut RayCounts,
-    ) -> Rgb {
+    fn gathered(&self, flight: &Flight, meeting: &Meeting, draw: &mut Draw) -> Rgb {
         let from = flight.depth * purpose::STEP;
         let mut sum = Rgb::ZERO;
         for (number, softbox) in self.room.softboxes.iter().enumerate() {
-            let pair = numbers.pair(from + purpose::SOFTBOX + number as u32);
+            let pair = draw.numbers.pair(from + purpose::SOFTBOX + number as u32);
             let towards = softbox.point(pair) - meeting.leaving;
             let distance = towards.length();
             let towards = towards / distance;
@@ -158,41 +164,62 @@ impl<'a> Studio<'a> {
             }
             let mut light = softbox.color * cosine;
             if flight.weight >= SHADOWS_FROM {
-                counts.shadow += 1;
                 let way = Ray { origin: meeting.leaving, direction: towards };
-                light *= self.world.transmission(&way, distance);
+                light *= self.open(&way, distance, number as u32, flight.depth, draw);
             }
             sum += light;
         }
-        sum + self.daylight(flight, meeting, numbers, counts)
+        sum + self.daylight(flight, meeting, draw)
+    }
+
+    /// How much of a softbox, by number, is seen along a ray.
+    fn open(&self, way: &Ray, distance: f64, number: u32, depth: u32, draw: &mut Draw) -> f64 {
+        let bit = if depth == 0 && number < outlook::MIRROR { 1 << number } else { 0 };
+        if draw.known.free & bit != 0 {
+            return 1.0;
+        }
+        if draw.known.hidden & bit != 0 {
+            return 0.0;
+        }
+        draw.counts.shadow += 1;
+        let open = self.world.transmission(way, distance);
+        draw.outlook.free |= if open > 0.0 { bit } else { 0 };
+        draw.outlook.hidden |= if open < 1.0 { bit } else { 0 };
+        open
     }
 
     /// What comes from the sky, and from other surfaces that hide it.
-    fn daylight(
-        &self,
-        flight: &Flight,
-        meeting: &Meeting,
-        numbers: &Sequence,
-        counts: &mut RayCounts,
-    ) -> Rgb {
+    fn daylight(&self, flight: &Flight, meeting: &Meeting, draw: &mut Draw) -> Rgb {
         let sky = self.room.daylight(meeting.normal);
         if flight.depth > 0 {
             return sky.brightness * (sky.share * FREE_SKY);
         }
-        let direction = scattered(meeting.normal, numbers.pair(purpose::SKY));
+        let ground = Rgb::splat(FAR_GROUND) * self.room.bounce;
+        let open = sky.brightness * sky.share + ground * (1.0 - sky.share);
+        let light = match draw.known.sky {
+            Some(share) => open * share.as_dvec3(),
+            None => self.asked_sky(meeting, sky.brightness, draw),
+        };
+        (draw.outlook.sky, draw.outlook.open_sky) = (light.as_vec3(), open.as_vec3());
+        light
+    }
+
+    /// The same by one ray, where the sky has that `brightness`.
+    fn asked_sky(&self, meeting: &Meeting, brightness: Rgb, draw: &mut Draw) -> Rgb {
+        let direction = scattered(meeting.normal, draw.numbers.pair(purpose::SKY));
         if direction.dot(meeting.outward) <= 0.0 {
             return Rgb::ZERO;
         }
-        counts.shadow += 1;
+        draw.counts.shadow += 1;
         let way = Ray { origin: meeting.leaving, direction };
         match self.world.nearest(&way, HIDES) {
-            None if direction.y > 0.0 => sky.brightness,
+            None if direction.y > 0.0 => brightness,
             None => Rgb::splat(FAR_GROUND) * self.room.bounce,
             Some((index, hit)) => {
                 let object = &self.world.scene.objects[index];
                 let (material, _) = object.material(way.at(hit.t), hit.normal);
                 if material.finish.transparency > 0.0 {
-                    return sky.brightness * material.finish.transparency;
+                    return brightness * material.finish.transparency;
                 }
                 material.texture.mean() * self.room.bounce
             }
@@ -206,20 +233,22 @@ impl<'a> Studio<'a> {
         meeting: &Meeting,
         distance: f64,
         share: Rgb,
-        numbers: &Sequence,
-        counts: &mut RayCounts,
+        draw: &mut Draw,
     ) -> Rgb {
         let roughness = meeting.material.coat.roughness;
         let exact = mirrored(flight.ray.direction, meeting.normal, meeting.outward);
         let weight = flight.weight * share.max_element();
-        if weight >= MIRRORS_FROM && flight.depth < self.world.scene.max_depth {
+        let bit = if flight.depth == 0 { 1 << outlook::MIRROR } else { 0 };
+        let is_free = draw.known.free & bit != 0;
+        if weight >= MIRRORS_FROM && flight.depth < self.world.scene.max_depth && !is_free {
             let from = flight.depth * purpose::STEP;
             let blurred =
-                (exact + ball(numbers.pair(from + purpose::MIRROR)) * roughness).normalize();
+                (exact + ball(draw.numbers.pair(from + purpose::MIRROR)) * roughness).normalize();
             let direction = if blurred.dot(meeting.outward) > 0.0 { blurred } else { exact };
             let ray = Ray { origin: meeting.leaving, direction };
-            counts.reflected += 1;
+            draw.counts.reflected += 1;
             if let Some((object, hit)) = self.nearest(&ray) {
+                draw.outlook.hidden |= bit;
                 let next = Flight {
                     ray,
                     depth: flight.depth + 1,
@@ -228,8 +257,9 @@ impl<'a> Studio<'a> {
                     index: flight.index,
                     spread: flight.spread + roughness,
                 };
-                return share * self.light(&next, object, hit, numbers, counts);
+                return share * self.light(&next, object, hit, draw);
             }
+            draw.outlook.free |= bit;
         }
         // Softboxes are blurred as a whole, not by samples; those that are seen at second hand are
         // found by few, and would leave specks.
@@ -238,14 +268,7 @@ impl<'a> Studio<'a> {
     }
 
     /// What is seen in glass, and through it.
-    fn glass(
-        &self,
-        flight: &Flight,
-        meeting: &Meeting,
-        distance: f64,
-        numbers: &Sequence,
-        counts: &mut RayCounts,
-    ) -> Rgb {
+    fn glass(&self, flight: &Flight, meeting: &Meeting, distance: f64, draw: &mut Draw) -> Rgb {
         let finish = &meeting.material.finish;
         let behind = meeting.point - meeting.outward * OFFSET;
         let index = self.world.index_at(behind);
@@ -262,7 +285,7 @@ impl<'a> Studio<'a> {
         };
         let mut sum = Rgb::ZERO;
         if share > 0.0 {
-            sum += self.mirror(flight, meeting, distance, Rgb::splat(share), numbers, counts);
+            sum += self.mirror(flight, meeting, distance, Rgb::splat(share), draw);
         }
         let Some(bent) = bent else {
             return sum;
@@ -279,14 +302,14 @@ impl<'a> Studio<'a> {
         // Each of a body's two surfaces takes half of what its colour takes.
         let tint = Rgb::from_array(meeting.color.to_array().map(f64::sqrt));
         if next.depth <= self.world.scene.max_depth && next.weight >= self.world.scene.min_weight {
-            counts.refracted += 1;
-            sum += tint * self.radiance(&next, numbers, counts) * share;
+            draw.counts.refracted += 1;
+            sum += tint * self.radiance(&next, draw) * share;
         } else {
             sum += tint * self.room.radiance(meeting.point, bent, 1.0) * share;
         }
         let clouded = 1.0 - finish.transparency;
         if clouded > 0.0 && flight.depth == 0 {
-            sum += meeting.color * clouded * self.gathered(flight, meeting, numbers, counts);
+            sum += meeting.color * clouded * self.gathered(flight, meeting, draw);
         }
         sum
     }
@@ -325,15 +348,19 @@ impl Eye<[Sample], Glimpse> for Studio<'_> {
         _: Option<&mut Vec<Ties>>,
     ) -> RayCounts {
         // It does not know.
-        let mut counts = RayCounts::default();
+        let mut all = RayCounts::default();
         let ([width, height], camera) = (self.size, &self.world.scene.camera);
-        seen.extend(samples.iter().map(|&Sample { spot: [x, y], index, is_centered }| {
+        seen.extend(samples.iter().map(|&Sample { spot: [x, y], index, is_centered, known }| {
             let numbers = Sequence::new(x, y, index);
             let (dx, dy) = if is_centered { (0.5, 0.5) } else { numbers.pair(PLACE) };
             let ray = camera.ray(f64::from(x) + dx, f64::from(y) + dy, width, height);
             let ray = camera.ray_through_lens(ray, || numbers.pair(LENS));
-            self.trace(ray, camera.spread(width) / self.across, &numbers, &mut counts)
+            let (counts, outlook) = (RayCounts::default(), Outlook::default());
+            let mut draw = Draw { numbers, known, counts, outlook };
+            let glimpse = self.trace(ray, camera.spread(width) / self.across, &mut draw);
+            all = all + draw.counts;
+            glimpse
         }));
-        counts
+        all
     }
 }

@@ -1,0 +1,186 @@
+//! What the first samples of pixels side by side tell of the light there, so that later ones need not ask.
+//!
+//! Where all of them saw a softbox, or none of them did, the next sample would see no more. What stands in
+//! the way of the sky changes so slowly from pixel to pixel that all of them together know it better than
+//! the samples of one.
+
+use glam::Vec3;
+
+use crate::lanes::{F32x8, Mask8, Simd, U32x8, Vec3x8};
+
+/// The bit of what a mirror sees; softboxes have those below it by their numbers. More softboxes than there
+/// are bits are always asked.
+pub const MIRROR: u32 = 31;
+
+/// What samples found out where they met a surface first.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Outlook {
+    /// Rays that nothing stood in the way of, and those that something did, a bit each.
+    pub free: u32,
+    pub hidden: u32,
+    /// The light that came from the sky and what hides it, and what would have come had nothing hidden it; both
+    /// as the pixel shows them.
+    pub sky: Vec3,
+    pub open_sky: Vec3,
+}
+
+impl Outlook {
+    /// Adds what others found out.
+    pub fn add(&mut self, other: &Outlook) {
+        self.free |= other.free;
+        self.hidden |= other.hidden;
+        self.sky += other.sky;
+        self.open_sky += other.open_sky;
+    }
+
+    /// Takes of the sky's light only that `share`, which the pixel shows.
+    pub fn weigh(&mut self, share: Vec3) {
+        self.sky *= share;
+        self.open_sky *= share;
+    }
+
+    /// Of the light of an open sky what there really is, by channel; `None` where nobody has asked.
+    pub fn share_of_sky(&self) -> Option<Vec3> {
+        (self.open_sky.min_element() > 0.0).then(|| self.sky / self.open_sky)
+    }
+
+    /// What need not be asked again.
+    pub fn known(&self) -> Known {
+        Known {
+            free: self.free & !self.hidden,
+            hidden: self.hidden & !self.free,
+            sky: self.share_of_sky(),
+        }
+    }
+}
+
+/// What a sample need not ask.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Known {
+    /// Rays that nothing stands in the way of, and those that something does, a bit each.
+    pub free: u32,
+    pub hidden: u32,
+    /// Of the light of an open sky what there really is, by channel.
+    pub sky: Option<Vec3>,
+}
+
+impl Known {
+    /// Which rays need not be asked for, and whether the sky is among them.
+    pub fn answered(&self) -> (bool, u32) {
+        (self.sky.is_some(), self.free | self.hidden)
+    }
+}
+
+/// What eight samples need not ask, and what they find out.
+pub struct Outlooks<S: Simd> {
+    /// See [`Known`].
+    known: [U32x8<S>; 2],
+    pub knows_sky: Mask8<S>,
+    pub share_of_sky: Vec3x8<S>,
+    /// See [`Outlook`].
+    free: U32x8<S>,
+    hidden: U32x8<S>,
+    pub sky: Vec3x8<S>,
+    pub open_sky: Vec3x8<S>,
+}
+
+impl<S: Simd> Outlooks<S> {
+    #[inline(always)]
+    pub fn new(known: &[Known; 8]) -> Outlooks<S> {
+        let (mut free, mut hidden, mut sky) = ([0; 8], [0; 8], [[0.0; 8]; 3]);
+        let mut knows_sky = 0;
+        for (lane, known) in known.iter().enumerate() {
+            (free[lane], hidden[lane]) = (known.free, known.hidden);
+            if let Some(share) = known.sky {
+                knows_sky |= 1 << lane;
+                (sky[0][lane], sky[1][lane], sky[2][lane]) = (share.x, share.y, share.z);
+            }
+        }
+        let zero = U32x8::splat(0);
+        let [x, y, z] = &sky;
+        Outlooks {
+            known: [U32x8::load(&free), U32x8::load(&hidden)],
+            knows_sky: Mask8::from_bits(knows_sky),
+            share_of_sky: Vec3x8::new(F32x8::load(x), F32x8::load(y), F32x8::load(z)),
+            free: zero,
+            hidden: zero,
+            sky: Vec3x8::zero(),
+            open_sky: Vec3x8::zero(),
+        }
+    }
+
+    /// Where it is known that nothing stands in the way of rays of a kind, and where that something does.
+    #[inline(always)]
+    pub fn known(&self, bit: u32) -> [Mask8<S>; 2] {
+        let [free, hidden] = self.known;
+        let one = U32x8::splat(1);
+        [((free >> bit) & one).eq(one), ((hidden >> bit) & one).eq(one)]
+    }
+
+    /// Takes of the sky's light only that `share`, which the pixel shows.
+    #[inline(always)]
+    pub fn weigh(&mut self, share: Vec3x8<S>) {
+        self.sky = self.sky.times(share);
+        self.open_sky = self.open_sky.times(share);
+    }
+
+    /// Notes for rays of a kind where nothing stood in the way, and where something did.
+    #[inline(always)]
+    pub fn found(&mut self, bit: u32, free: Mask8<S>, hidden: Mask8<S>) {
+        let (word, zero) = (U32x8::splat(1 << bit), U32x8::splat(0));
+        self.free = self.free | free.select_words(word, zero);
+        self.hidden = self.hidden | hidden.select_words(word, zero);
+    }
+
+    #[inline(always)]
+    pub fn store(&self) -> [Outlook; 8] {
+        let (free, hidden) = (self.free.store(), self.hidden.store());
+        let (sky, open_sky) = (self.sky.store(), self.open_sky.store());
+        let mut outlooks = [Outlook::default(); 8];
+        for (lane, outlook) in outlooks.iter_mut().enumerate() {
+            *outlook = Outlook {
+                free: free[lane],
+                hidden: hidden[lane],
+                sky: sky[lane],
+                open_sky: open_sky[lane],
+            };
+        }
+        outlooks
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lanes::Plain;
+
+    fn seen(free: u32, hidden: u32) -> Outlook {
+        let (sky, open_sky) = (Vec3::new(0.1, 0.2, 0.3), Vec3::splat(0.4));
+        Outlook { free, hidden, sky, open_sky }
+    }
+
+    #[test]
+    fn only_what_all_saw_alike_is_known() {
+        let mut outlook = seen(0b0011, 0b1000);
+        outlook.add(&seen(0b0001, 0b1010));
+        let known = outlook.known();
+        assert_eq!((known.free, known.hidden), (0b0001, 0b1000));
+        assert_eq!(known.sky, Some(Vec3::new(0.2, 0.4, 0.6) / 0.8));
+        assert_eq!(Outlook::default().known().sky, None);
+    }
+
+    #[test]
+    fn each_lane_knows_and_finds_its_own() {
+        let mut known = [Known::default(); 8];
+        known[3] = seen(0b01, 0b10).known();
+        let mut outlooks = Outlooks::<Plain>::new(&known);
+        assert_eq!(outlooks.knows_sky.bits(), 1 << 3);
+        assert_eq!(outlooks.known(0).map(|lanes| lanes.bits()), [1 << 3, 0]);
+        assert_eq!(outlooks.known(1).map(|lanes| lanes.bits()), [0, 1 << 3]);
+        assert_eq!(outlooks.known(MIRROR).map(|lanes| lanes.bits()), [0, 0]);
+        outlooks.found(2, Mask8::from_bits(0b011), Mask8::from_bits(0b110));
+        outlooks.found(MIRROR, Mask8::from_bits(0b100), Mask8::no_lanes());
+        let found = outlooks.store().map(|outlook| (outlook.free, outlook.hidden));
+        assert_eq!(found[..4], [(4, 0), (4, 4), (1 << MIRROR, 4), (0, 0)]);
+    }
+}
