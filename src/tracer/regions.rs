@@ -4,8 +4,6 @@
 //! a column of space as wide as a cell, up to the height of what stands in cells, or from there up. The outermost
 //! zones have no end, so that zones are everywhere.
 
-use std::ops::Range;
-
 use glam::{DVec3, Vec3};
 use smallvec::SmallVec;
 
@@ -284,8 +282,10 @@ impl Slab {
         let left = number((self.side - self.reach - self.origin[0]) / self.side);
         let right = number((self.side + self.reach - self.origin[0]) / self.side);
         let most = N as f32;
-        let wanted = self.rows_of(o.z + d.z * enter, o.z + d.z * exit, lanes, ENDLESS);
-        for (index, row) in rows.iter_mut().enumerate().take(wanted.end).skip(wanted.start) {
+        let mut wanted = self.rows_of(o.z + d.z * enter, o.z + d.z * exit, lanes, ENDLESS);
+        while wanted != 0 {
+            let index = wanted.trailing_zeros() as usize;
+            wanted &= wanted - 1;
             let to_row = to_first + number(index as f32 * self.side);
             let mut near = (to_row - reach) * inverse.z;
             let mut far = (to_row + reach) * inverse.z;
@@ -315,34 +315,28 @@ impl Slab {
             let (first, behind) = (first.floor(), behind.floor());
             let bits = (one << behind.to_i32()) - (one << first.to_i32());
             let is_any = is_in & lanes & first.lt(behind);
-            *row = is_any.select_words(bits, U32x8::splat(0));
+            rows[index] = is_any.select_words(bits, U32x8::splat(0));
         }
     }
 }
 
 impl Slab {
-    /// The rows that ways from `a` to `b` across them may pass in any lane.
+    /// The rows that ways from `a` to `b` across them may pass in any lane, as bits.
     #[inline(always)]
-    fn rows_of<S: Simd>(
-        &self,
-        a: F32x8<S>,
-        b: F32x8<S>,
-        lanes: Mask8<S>,
-        is_endless: bool,
-    ) -> Range<usize> {
-        let far = F32x8::splat(f32::INFINITY);
-        let (low, high) = (lanes.select(a.min(b), far), lanes.select(a.max(b), -far));
-        let low = low.store().into_iter().fold(f32::INFINITY, f32::min);
-        let high = high.store().into_iter().fold(f32::NEG_INFINITY, f32::max);
+    fn rows_of<S: Simd>(&self, a: F32x8<S>, b: F32x8<S>, lanes: Mask8<S>, is_endless: bool) -> u32 {
         // As if boxes met, with room for rounding: one row more does no harm.
-        let index = |at: f32| (at - self.origin[1]) / self.side + 0.5;
+        let scale = F32x8::splat(1.0 / self.side);
+        let low = a.min(b) * scale + F32x8::splat(0.49 - self.origin[1] / self.side);
+        let high = a.max(b) * scale + F32x8::splat(1.51 - self.origin[1] / self.side);
         let most = ROWS as f32;
-        let (first, last) = (index(low) - 0.01, index(high) + 0.01);
-        if is_endless {
-            first.clamp(0.0, most - 1.0) as usize..last.clamp(0.0, most - 1.0) as usize + 1
+        let (first, behind) = if is_endless {
+            (low.clamp(0.0, most - 1.0), high.clamp(1.0, most))
         } else {
-            first.clamp(0.0, most) as usize..(last + 1.0).clamp(0.0, most) as usize
-        }
+            (low.clamp(0.0, most), high.clamp(0.0, most))
+        };
+        let one = U32x8::splat(1);
+        let bits = (one << behind.to_i32()) - (one << first.to_i32());
+        lanes.select_words(bits, U32x8::splat(0)).in_any_lane()
     }
 }
 
