@@ -110,13 +110,15 @@ impl Cuts {
     }
 
     fn of(segments: &[Segment], first: usize, depth: usize, margin: f64) -> Cuts {
-        let halves = (segments.len() > 1).then(|| {
-            let middle = if depth < DEEPEST { best_split(segments) } else { segments.len() / 2 };
-            let (low, high) = segments.split_at(middle);
-            let half = |run, first| Cuts::of(run, first, depth + 1, margin);
-            Box::new([half(low, first), half(high, first + middle)])
-        });
-        Cuts { bounds: Bounds::of(segments).grown(margin), first, halves }
+        if segments.len() == 1 {
+            return Cuts { bounds: Bounds::of(segments).grown(margin), first, halves: None };
+        }
+        let middle = if depth < DEEPEST { best_split(segments) } else { segments.len() / 2 };
+        let (low, high) = segments.split_at(middle);
+        let half = |run, first| Cuts::of(run, first, depth + 1, margin);
+        let halves = [half(low, first), half(high, first + middle)];
+        let bounds = halves[0].bounds.union(halves[1].bounds);
+        Cuts { bounds, first, halves: Some(Box::new(halves)) }
     }
 }
 
