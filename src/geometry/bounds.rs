@@ -145,8 +145,8 @@ mod tests {
 
     #[test]
     fn what_is_round_is_no_wider_for_being_turned() {
-        let points = [(1.0, 0.0), (0.4, 2.0)]
-            .map(|(u, v)| ControlPoint { at: DVec2::new(u, v), corner: true });
+        let points = [(0.0, 0.0), (1.0, 0.0), (0.4, 2.0), (0.0, 2.0)];
+        let points = points.map(|(u, v)| ControlPoint { at: DVec2::new(u, v), corner: true });
         let profile = Profile::new(points.to_vec()).expect("a profile");
         let lathe = Lathe::new(&profile, 0, Normals::Flat).expect("a lathe");
         let cube = Csg::leaf(Cuboid::centered(DVec3::splat(0.5)));

@@ -136,6 +136,17 @@ impl Simd for Avx2 {
     }
 
     #[inline(always)]
+    fn u_or_lanes(a: __m256i) -> u32 {
+        // SAFETY: AVX2 was found.
+        unsafe {
+            let four = _mm_or_si128(_mm256_castsi256_si128(a), _mm256_extracti128_si256::<1>(a));
+            let two = _mm_or_si128(four, _mm_shuffle_epi32::<0b01_00_11_10>(four));
+            let one = _mm_or_si128(two, _mm_shuffle_epi32::<0b10_11_00_01>(two));
+            _mm_cvtsi128_si32(one) as u32
+        }
+    }
+
+    #[inline(always)]
     fn u_select(mask: __m256, yes: __m256i, no: __m256i) -> __m256i {
         // SAFETY: AVX2 was found.
         unsafe { _mm256_blendv_epi8(no, yes, _mm256_castps_si256(mask)) }

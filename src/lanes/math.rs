@@ -143,6 +143,7 @@ mod tests {
                 words.mul_high(words).store(),
                 (words * words).store(),
                 words.shr_signed(7).store(),
+                [words.in_any_lane(); 8],
                 words.reverse_bits().store(),
                 (words >> (words & U32x8::splat(63))).store(),
                 (words << (words & U32x8::splat(63))).store(),

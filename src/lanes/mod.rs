@@ -90,6 +90,12 @@ pub trait Simd: Copy + Send + Sync + 'static {
     fn u_shr_signed(a: Self::U, by: u32) -> Self::U;
     /// The lowest bit becomes the highest.
     fn u_reverse_bits(a: Self::U) -> Self::U;
+    /// All bits that are set in any lane.
+    #[inline(always)]
+    fn u_or_lanes(a: Self::U) -> u32 {
+        let [a, b, c, d, e, f, g, h] = Self::u_store(a);
+        a | b | c | d | e | f | g | h
+    }
     fn u_eq(a: Self::U, b: Self::U) -> Self::M;
     fn u_select(mask: Self::M, yes: Self::U, no: Self::U) -> Self::U;
     fn u_as_floats(a: Self::U) -> Self::F;
@@ -376,6 +382,12 @@ impl<S: Simd> U32x8<S> {
     #[inline(always)]
     pub fn reverse_bits(self) -> U32x8<S> {
         U32x8(S::u_reverse_bits(self.0))
+    }
+
+    /// All bits that are set in any lane.
+    #[inline(always)]
+    pub fn in_any_lane(self) -> u32 {
+        S::u_or_lanes(self.0)
     }
 
     /// Of numbers less than 2³¹ apart, whether this one is less.

@@ -147,13 +147,14 @@ impl Daylight {
     fn new(colors: &[Rgb; 3], upward: f64) -> Daylight {
         const RINGS: usize = 48;
         let normal = DVec3::new((1.0 - upward * upward).max(0.0).sqrt(), upward, 0.0);
+        let around: [(f64, f64); RINGS] =
+            std::array::from_fn(|step| libm::sincos((step as f64 + 0.5) / RINGS as f64 * TAU));
         let (mut light, mut above, mut all) = (Rgb::ZERO, 0.0, 0.0);
         for ring in 0..2 * RINGS {
             // Rings of equal height have equal areas.
             let y = (ring as f64 + 0.5) / RINGS as f64 - 1.0;
             let radius = (1.0 - y * y).sqrt();
-            for step in 0..RINGS {
-                let (sin, cos) = libm::sincos((step as f64 + 0.5) / RINGS as f64 * TAU);
+            for (sin, cos) in around {
                 let cosine = normal.dot(DVec3::new(radius * cos, y, radius * sin)).max(0.0);
                 all += cosine;
                 if y > 0.0 {

@@ -56,9 +56,8 @@ impl Grid {
             rows[0] | rows[1] << 8 | rows[2] << 16 | rows[3] << 24,
             rows[4] | rows[5] << 8 | rows[6] << 16 | rows[7] << 24,
         ];
-        let (low, high) = (passed[0].store(), passed[1].store());
-        let any = |words: [u32; 8]| u64::from(words.into_iter().fold(0, |any, word| any | word));
-        let mut left = (any(low) | any(high) << 32) & self.occupied;
+        let [low, high] = [passed[0].in_any_lane(), passed[1].in_any_lane()];
+        let mut left = (u64::from(low) | u64::from(high) << 32) & self.occupied;
         // What is near is likely to come first.
         let is_backward = rays.direction.z.lt(F32x8::splat(0.0)).bits().count_ones() > 4;
         while left != 0 {

@@ -1,7 +1,5 @@
 //! Boxes in rows: which of them rays pass is known without asking any.
 
-use std::ops::Range;
-
 use crate::lanes::{F32x8, Mask8, Simd, U32x8, Vec3x8};
 use crate::packet::Rays;
 
@@ -53,8 +51,10 @@ impl Slab {
         let left = number((self.side - self.reach - self.origin[0]) / self.side);
         let right = number((self.side + self.reach - self.origin[0]) / self.side);
         let most = SIDE as f32;
-        let wanted = self.rows_of(o.z + d.z * enter, o.z + d.z * exit, lanes);
-        for (index, row) in rows.iter_mut().enumerate().take(wanted.end).skip(wanted.start) {
+        let mut wanted = self.rows_of(o.z + d.z * enter, o.z + d.z * exit, lanes);
+        while wanted != 0 {
+            let index = wanted.trailing_zeros() as usize;
+            wanted &= wanted - 1;
             let to_row = to_first + number(index as f32 * self.side);
             let mut near = (to_row - reach) * inverse.z;
             let mut far = (to_row + reach) * inverse.z;
@@ -71,21 +71,20 @@ impl Slab {
             let behind = behind.clamp(0.0, most).floor();
             let bits = (one << behind.to_i32()) - (one << first.to_i32());
             let is_any = is_in & lanes & first.lt(behind);
-            *row = is_any.select_words(bits, U32x8::splat(0));
+            rows[index] = is_any.select_words(bits, U32x8::splat(0));
         }
     }
 
-    /// The rows that ways from `a` to `b` across them may pass in any lane.
+    /// The rows that ways from `a` to `b` across them may pass in any lane, as bits.
     #[inline(always)]
-    fn rows_of<S: Simd>(&self, a: F32x8<S>, b: F32x8<S>, lanes: Mask8<S>) -> Range<usize> {
-        let far = F32x8::splat(f32::INFINITY);
-        let (low, high) = (lanes.select(a.min(b), far), lanes.select(a.max(b), -far));
-        let low = low.store().into_iter().fold(f32::INFINITY, f32::min);
-        let high = high.store().into_iter().fold(f32::NEG_INFINITY, f32::max);
+    fn rows_of<S: Simd>(&self, a: F32x8<S>, b: F32x8<S>, lanes: Mask8<S>) -> u32 {
         // As if boxes met, with room for rounding: one row more does no harm.
-        let index = |at: f32| (at - self.origin[1]) / self.side + 0.5;
-        let most = SIDE as f32;
-        let (first, last) = (index(low) - 0.01, index(high) + 0.01);
-        first.clamp(0.0, most) as usize..(last + 1.0).clamp(0.0, most) as usize
+        let scale = F32x8::splat(1.0 / self.side);
+        let low = a.min(b) * scale + F32x8::splat(0.49 - self.origin[1] / self.side);
+        let high = a.max(b) * scale + F32x8::splat(1.51 - self.origin[1] / self.side);
+        let (first, behind) = (low.clamp(0.0, SIDE as f32), high.clamp(0.0, SIDE as f32));
+        let one = U32x8::splat(1);
+        let bits = (one << behind.to_i32()) - (one << first.to_i32());
+        lanes.select_words(bits, U32x8::splat(0)).in_any_lane()
     }
 }

@@ -93,15 +93,42 @@ struct Node<B> {
 /// The segment of a node that is no leaf.
 const NONE: u32 = u32::MAX;
 
+/// How a chain is cut in two, and its halves again, down to single segments.
+pub struct Cuts {
+    /// With room for rounding.
+    bounds: Bounds,
+    /// The first segment's number.
+    first: usize,
+    halves: Option<Box<[Cuts; 2]>>,
+}
+
+impl Cuts {
+    /// None where there is nothing to cut.
+    pub fn new(segments: &[Segment]) -> Option<Cuts> {
+        let margin = MARGIN * size(segments);
+        (!segments.is_empty()).then(|| Cuts::of(segments, 0, 0, margin))
+    }
+
+    fn of(segments: &[Segment], first: usize, depth: usize, margin: f64) -> Cuts {
+        if segments.len() == 1 {
+            return Cuts { bounds: Bounds::of(segments).grown(margin), first, halves: None };
+        }
+        let middle = if depth < DEEPEST { best_split(segments) } else { segments.len() / 2 };
+        let (low, high) = segments.split_at(middle);
+        let half = |run, first| Cuts::of(run, first, depth + 1, margin);
+        let halves = [half(low, first), half(high, first + middle)];
+        let bounds = halves[0].bounds.union(halves[1].bounds);
+        Cuts { bounds, first, halves: Some(Box::new(halves)) }
+    }
+}
+
 impl<B> Tree<B> {
-    /// A tree over `segments`, with each box in the form that rays ask for; from the last segment to the first one if
-    /// `is_backward`.
-    pub fn new(segments: &[Segment], is_backward: bool, form: impl Fn(Bounds) -> B) -> Tree<B> {
-        let mut nodes = Vec::with_capacity(2 * segments.len());
-        if !segments.is_empty() {
-            let margin = MARGIN * size(segments);
-            let form = |bounds: Bounds| form(bounds.grown(margin));
-            grow(segments, 0, 0, is_backward, &form, &mut nodes);
+    /// The tree that `cuts` make, with each box in the form that rays ask for; from the last segment to the first one
+    /// if `is_backward`.
+    pub fn new(cuts: Option<&Cuts>, is_backward: bool, form: impl Fn(Bounds) -> B) -> Tree<B> {
+        let mut nodes = Vec::new();
+        if let Some(cuts) = cuts {
+            grow(cuts, is_backward, &form, &mut nodes);
         }
         Tree { nodes }
     }
@@ -134,27 +161,14 @@ impl<B> Tree<B> {
     }
 }
 
-/// Adds the tree of `segments`, the first of which is the one at `first`.
-fn grow<B>(
-    segments: &[Segment],
-    first: usize,
-    depth: usize,
-    is_backward: bool,
-    form: &impl Fn(Bounds) -> B,
-    nodes: &mut Vec<Node<B>>,
-) {
+/// Adds a part of a tree.
+fn grow<B>(cuts: &Cuts, is_backward: bool, form: &impl Fn(Bounds) -> B, nodes: &mut Vec<Node<B>>) {
     let index = nodes.len();
-    let segment = if segments.len() == 1 { first as u32 } else { NONE };
-    nodes.push(Node { bounds: form(Bounds::of(segments)), beyond: 0, segment });
-    if segments.len() > 1 {
-        let middle = if depth < DEEPEST { best_split(segments) } else { segments.len() / 2 };
-        let (low, high) = segments.split_at(middle);
-        let mut children = [(low, first), (high, first + middle)];
-        if is_backward {
-            children.reverse();
-        }
-        for (run, first) in children {
-            grow(run, first, depth + 1, is_backward, form, nodes);
+    let segment = if cuts.halves.is_none() { cuts.first as u32 } else { NONE };
+    nodes.push(Node { bounds: form(cuts.bounds), beyond: 0, segment });
+    if let Some([low, high]) = cuts.halves.as_deref() {
+        for half in if is_backward { [high, low] } else { [low, high] } {
+            grow(half, is_backward, form, nodes);
         }
     }
     nodes[index].beyond = nodes.len() as u32;

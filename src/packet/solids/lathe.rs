@@ -3,7 +3,7 @@
 //! A ray's origin is first moved to where it is nearest to the axis within the heights of the body, so that
 //! nothing large cancels. There u² has its least value, and only grows from there on.
 
-use super::chain::{Bounds, ROUNDING, Slopes, Tree, either, merged, size};
+use super::chain::{Bounds, Cuts, ROUNDING, Slopes, Tree, either, merged, size};
 use super::{Crossing, Normals};
 use crate::geometry::{self, Segment};
 use crate::lanes::{F32x8, LANES, Mask8, Simd, U32x8, Vec3x8};
@@ -200,9 +200,10 @@ impl Lathe {
                 slope: (along.x / along.y) as f32,
             }
         };
+        let cuts = Cuts::new(&segments);
         Lathe {
             rings: segments.iter().map(ring).collect(),
-            trees: [false, true].map(|is_down| Tree::new(&segments, is_down, Zone::new)),
+            trees: [false, true].map(|is_down| Tree::new(cuts.as_ref(), is_down, Zone::new)),
             sides: segments.iter().map(side).collect(),
             slopes: Slopes::new(&segments),
         }

@@ -5,7 +5,7 @@
 
 use glam::DVec2;
 
-use super::chain::{Bounds, Slopes, Tree, either, merged};
+use super::chain::{Bounds, Cuts, Slopes, Tree, either, merged};
 use super::{Crossing, Normals};
 use crate::geometry::{self, Segment, Solid};
 use crate::lanes::{F32x8, Mask8, Simd, U32x8, Vec3x8};
@@ -138,7 +138,7 @@ impl Prism {
         };
         Prism {
             walls: segments.iter().map(wall).collect(),
-            tree: Tree::new(&segments, false, Area::new),
+            tree: Tree::new(Cuts::new(&segments).as_ref(), false, Area::new),
             slopes: Slopes::new(&segments),
             middle: array(middle),
             back: bounds.min.z as f32,
