@@ -1,4 +1,4 @@
-//! Bodies that are not there, but may be in another picture.
+//! Bodies that are not there, but will be in another picture.
 
 use smallvec::{SmallVec, smallvec};
 
@@ -67,7 +67,7 @@ impl Absent {
                     lanes,
                     ties,
                     #[inline(always)]
-                    |body, lanes| body.first(rays, before, lanes).t.lt(before),
+                    |body, lanes| body.is_met(rays, before, lanes),
                 );
             },
         );

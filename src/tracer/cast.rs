@@ -21,16 +21,21 @@ fn is_alike(one: &Scene, other: &Scene) -> bool {
         && one.snell_index == other.snell_index
 }
 
-/// All bodies of a row of pictures.
+/// The bodies of a row of pictures.
 pub struct Cast {
+    /// The first picture.
     first: Scene,
+    /// Those that are in all pictures.
+    fixed: Vec<Object>,
+    /// All others, by number.
+    members: Vec<Object>,
+    /// By picture: the members that are in it, by bits, and those that are in it or in any after it.
+    present: Vec<u128>,
+    awaited: Vec<u128>,
+    /// The picture that is made.
+    now: usize,
     /// 1, but in a test.
     share: f64,
-    /// Those that are in all of the pictures; any other is a member.
-    fixed: Vec<Object>,
-    members: Vec<Object>,
-    /// How many pictures there are.
-    pub pictures: usize,
 }
 
 /// No more pictures than these are looked at.
@@ -39,43 +44,37 @@ const FARTHEST: usize = 512;
 impl Cast {
     /// The cast of `scene` and of as many of those after it as it has room for.
     pub fn new(scene: &Scene, coming: impl Iterator<Item = Scene>) -> Cast {
-        let mut cast = Cast {
-            first: scene.clone(),
-            share: 1.0,
-            fixed: scene.objects.clone(),
-            members: Vec::new(),
-            pictures: 1,
-        };
-        for scene in coming.take(FARTHEST) {
-            if !cast.admits(&scene) {
-                break;
+        let mut known =
+            Known { objects: scene.objects.clone(), goes: vec![false; scene.objects.len()] };
+        let mut pictures = vec![(0..scene.objects.len()).collect::<Vec<_>>()];
+        for other in coming.take(FARTHEST) {
+            let picture = if is_alike(scene, &other) { known.admit(&other) } else { None };
+            match picture {
+                Some(picture) => pictures.push(picture),
+                None => break,
             }
-            cast.pictures += 1;
         }
-        cast
-    }
-
-    /// Makes room for those bodies of `scene` that come, and those that go; whether there is any.
-    fn admits(&mut self, scene: &Scene) -> bool {
-        if !is_alike(&self.first, scene) {
-            return false;
-        }
-        let is_there = |object: &Object| scene.objects.iter().any(|other| other.is_same(object));
-        let goes = |object: &&Object| !is_there(object);
-        let comes = |object: &&Object| {
-            let is_known = |known: &Object| known.is_same(object);
-            !self.fixed.iter().any(is_known) && !self.members.iter().any(is_known)
+        let mut numbers = 0..;
+        let numbers: Vec<Option<u32>> =
+            known.goes.iter().map(|goes| if *goes { numbers.next() } else { None }).collect();
+        let bits = |picture: &Vec<usize>| {
+            let members = picture.iter().filter_map(|index| numbers[*index]);
+            members.fold(0, |bits, number| bits | 1_u128 << number)
         };
-        let gone = self.fixed.iter().filter(goes);
-        let others: Vec<Object> = gone.chain(scene.objects.iter().filter(comes)).cloned().collect();
-        let has_room = self.members.len() + others.len() <= MEMBERS;
-        // What has no end is everywhere.
-        if !has_room || others.iter().any(|other| !other.body.bounds().is_finite()) {
-            return false;
+        let present: Vec<u128> = pictures.iter().map(bits).collect();
+        let mut awaited = present.clone();
+        for index in (1..present.len()).rev() {
+            awaited[index - 1] |= awaited[index];
         }
-        self.fixed.retain(|object| is_there(object));
-        self.members.extend(others);
-        true
+        let some = |goes: bool| {
+            let pairs = known.objects.iter().zip(&known.goes);
+            pairs
+                .filter(move |(_, other)| **other == goes)
+                .map(|(object, _)| object.clone())
+                .collect()
+        };
+        let (fixed, members) = (some(false), some(true));
+        Cast { first: scene.clone(), fixed, members, present, awaited, now: 0, share: 1.0 }
     }
 
     /// For a test: the same, with smaller envelopes.
@@ -83,8 +82,18 @@ impl Cast {
         Cast { share, ..self }
     }
 
+    /// How many pictures there are.
+    pub fn pictures(&self) -> usize {
+        self.present.len()
+    }
+
     pub fn members(&self) -> &[Object] {
         &self.members
+    }
+
+    /// Whether a member is in the picture that is made, or in any after it.
+    pub fn awaits(&self, number: u32) -> bool {
+        self.awaited[self.now] >> number & 1 == 1
     }
 
     /// What rays look out for instead of a member: itself.
@@ -106,11 +115,13 @@ impl Cast {
         found.map(|index| index as u32)
     }
 
-    /// What stands in `scene`: what is fixed, and members that were there `before` or are in the `next` picture;
-    /// `None` if it is no picture of this cast.
-    pub fn stand(&self, scene: &Scene, before: u128, next: Option<&Scene>) -> Option<Stand> {
-        let all = self.present(scene)?;
-        let stay = before | next.and_then(|next| self.present(next)).unwrap_or(0);
+    /// Goes on to `scene`. What stands in it is what is fixed, and members that were there `before` or are in the
+    /// next picture; `None` if it is no picture of this cast, or one that is past.
+    pub fn stand(&mut self, scene: &Scene, before: u128) -> Option<Stand> {
+        let all = self.present_in(scene)?;
+        let found = self.present[self.now..].iter().position(|present| *present == all)?;
+        self.now += found;
+        let stay = before | self.present.get(self.now + 1).unwrap_or(&0);
         let (present, over) = (all & stay, all & !stay);
         let stands =
             |object: &&Object| self.number(object).is_none_or(|number| present >> number & 1 == 1);
@@ -118,8 +129,8 @@ impl Cast {
         Some(Stand { scene: Scene { objects, ..scene.clone() }, present, over })
     }
 
-    /// The members that are in `scene`; `None` if it is no picture of this cast.
-    fn present(&self, scene: &Scene) -> Option<u128> {
+    /// The members that are in `scene`; `None` if there is anything else in it, or anything lacking.
+    fn present_in(&self, scene: &Scene) -> Option<u128> {
         if !is_alike(&self.first, scene) {
             return None;
         }
@@ -132,6 +143,41 @@ impl Cast {
             }
         }
         (fixed == self.fixed.len()).then_some(present)
+    }
+}
+
+/// All bodies so far.
+struct Known {
+    objects: Vec<Object>,
+    /// By object: whether any picture lacks it.
+    goes: Vec<bool>,
+}
+
+impl Known {
+    /// Adds the bodies of a picture: their indices. `None`, and nothing has changed, if there is no room.
+    fn admit(&mut self, scene: &Scene) -> Option<Vec<usize>> {
+        let (count, goes) = (self.objects.len(), self.goes.clone());
+        let mut picture = Vec::with_capacity(scene.objects.len());
+        for object in &scene.objects {
+            let known = self.objects.iter().position(|known| known.is_same(object));
+            picture.push(known.unwrap_or(self.objects.len()));
+            if known.is_none() {
+                self.objects.push(object.clone());
+                self.goes.push(true);
+            }
+        }
+        for (index, goes) in self.goes.iter_mut().enumerate() {
+            *goes |= !picture.contains(&index);
+        }
+        let changing = || self.objects.iter().zip(&self.goes).filter(|(_, goes)| **goes);
+        // What has no end is everywhere.
+        let are_small = changing().all(|(object, _)| object.body.bounds().is_finite());
+        if changing().count() > MEMBERS || !are_small {
+            self.objects.truncate(count);
+            self.goes = goes;
+            return None;
+        }
+        Some(picture)
     }
 }
 

@@ -79,10 +79,8 @@ impl Tracer {
         scene: &Scene,
         coming: impl IntoIterator<Item = Scene>,
     ) -> (DynamicImage, RayCounts) {
-        let mut coming = coming.into_iter();
-        let next = coming.next();
-        let known = self.last.take().and_then(|last| {
-            let stand = last.cast.stand(scene, last.present, next.as_ref())?;
+        let known = self.last.take().and_then(|mut last| {
+            let stand = last.cast.stand(scene, last.present)?;
             let changed = change((&last.scene, last.present), (&stand.scene, stand.present))?;
             Some((last, stand, changed))
         });
@@ -100,9 +98,9 @@ impl Tracer {
                 (cast, stand, kept, picture, counts)
             }
             None => {
-                let cast = Cast::new(scene, next.iter().cloned().chain(coming)).shrunk(self.share);
-                let stand = cast.stand(scene, 0, next.as_ref());
-                let Some(stand) = stand.filter(|_| cast.pictures > 1) else {
+                let mut cast = Cast::new(scene, coming.into_iter()).shrunk(self.share);
+                let stand = cast.stand(scene, 0);
+                let Some(stand) = stand.filter(|_| cast.pictures() > 1) else {
                     let (kept, counts) = self.whole(scene, None);
                     return (pixel::picture(kept.picture(), is_transparent), counts);
                 };

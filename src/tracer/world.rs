@@ -115,7 +115,8 @@ impl<'a> World<'a> {
         world.boxes = Hierarchy::new(&loose, 0.0);
         world.absent = cast.map(|cast| {
             let others = (0..).zip(cast.members());
-            let absent = others.filter(|(number, _)| !world.members.contains(number));
+            let absent = others
+                .filter(|(number, _)| cast.awaits(*number) && !world.members.contains(number));
             Absent::new(absent, |object| {
                 let materials = world.materials.add(object.surface.materials());
                 Body::new(&cast.envelope(object), shelf, materials)
