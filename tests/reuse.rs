@@ -195,6 +195,29 @@ fn any_picture_may_follow_any_other() {
     }
 }
 
+/// What is told of pictures to come need not be true.
+#[test]
+fn pictures_are_the_same_whatever_was_told_of_them() {
+    type Told = fn(&[Scene], usize) -> Vec<Scene>;
+    let cases: [(&str, Told); 4] = [
+        ("nothing", |_, _| Vec::new()),
+        ("what is past", |scenes, index| scenes[..index].iter().rev().cloned().collect()),
+        ("every other one", |scenes, index| scenes[index..].iter().step_by(2).cloned().collect()),
+        ("the same again", |scenes, index| vec![scenes[index].clone(); 3]),
+    ];
+    for look in [Look::Thesis, Look::Studio] {
+        let scenes = show(look, |_| {}).scenes(FIRST, LAST);
+        let expected = whole(&scenes, ADAPTIVE);
+        for (told, coming) in cases {
+            let mut tracer = Tracer::new(WIDTH, HEIGHT, ADAPTIVE);
+            for (index, scene) in scenes.iter().enumerate() {
+                let found = tracer.picture(scene, coming(&scenes, index)).0;
+                assert!(found == expected[index].0, "{look:?}, told {told}: picture {index}");
+            }
+        }
+    }
+}
+
 #[test]
 fn any_number_of_threads_gives_the_same_bytes() {
     for look in [Look::Thesis, Look::Studio] {

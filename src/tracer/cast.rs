@@ -203,3 +203,111 @@ pub fn change(one: (&Scene, u128), other: (&Scene, u128)) -> Option<Ties> {
     }
     Some(Ties::new(cells, one.1 ^ other.1))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::assets::{Assets, SetName};
+    use crate::config::{Config, Look};
+    use crate::notation::Placement;
+    use crate::scene::{Reach, Stage};
+    use crate::timeline::{Frame, Gaze};
+    use shakmaty::Board;
+
+    fn stage() -> Stage {
+        let mut config = Config::new(Look::Thesis);
+        config.render.subdivisions = 0;
+        let assets = Assets::load(&config, &SetName::Thesis).unwrap();
+        Stage::new(&config, &assets, Reach::default()).unwrap()
+    }
+
+    fn frame(board: &str) -> Frame {
+        Frame::still(Placement::from(&Board::from_ascii_board_fen(board.as_bytes()).unwrap()))
+    }
+
+    fn scenes<const N: usize>(stage: &Stage, boards: [&str; N]) -> [Scene; N] {
+        boards.map(|board| stage.scene(&frame(board)))
+    }
+
+    fn cast(scenes: &[Scene]) -> Cast {
+        Cast::new(&scenes[0], scenes[1..].iter().cloned())
+    }
+
+    /// A rook goes to the left, back, and farther to the left.
+    const BOARDS: [&str; 4] =
+        ["8/8/8/8/8/8/8/K6R", "8/8/8/8/8/8/8/K5R1", "8/8/8/8/8/8/8/K6R", "8/8/8/8/8/8/8/K4R2"];
+
+    #[test]
+    fn members_are_those_that_come_and_go() {
+        let scenes = scenes(&stage(), BOARDS);
+        let cast = cast(&scenes);
+        assert_eq!([cast.pictures(), cast.members().len()], [4, 3]);
+        assert_eq!(cast.present, [0b001, 0b010, 0b001, 0b100]);
+        assert_eq!(cast.awaited, [0b111, 0b111, 0b101, 0b100]);
+        assert_eq!(cast.fixed.len(), scenes[0].objects.len() - 1);
+    }
+
+    #[test]
+    fn what_is_there_for_one_picture_alone_does_not_stand() {
+        let scenes = scenes(&stage(), BOARDS);
+        let mut moving = cast(&scenes);
+        for (scene, over) in scenes.iter().zip([0b001, 0b010, 0b001, 0b100]) {
+            let stand = moving.stand(scene, 0).unwrap();
+            assert_eq!([stand.present, stand.over], [0, over]);
+            assert_eq!(stand.scene.objects.len(), scene.objects.len() - 1);
+        }
+        let twice = [&scenes[0], &scenes[0], &scenes[1]].map(Scene::clone);
+        let stand = cast(&twice).stand(&twice[0], 0).unwrap();
+        assert_eq!([stand.present, stand.over], [0b01, 0]);
+    }
+
+    #[test]
+    fn a_picture_is_of_the_cast_until_it_is_past() {
+        let scenes = scenes(&stage(), BOARDS);
+        let mut cast = cast(&scenes);
+        for index in [1, 1, 3] {
+            assert!(cast.stand(&scenes[index], 0).is_some());
+        }
+        assert!(cast.stand(&scenes[1], 0).is_none());
+        assert_eq!([0, 1, 2].map(|number| cast.awaits(number)), [false, false, true]);
+    }
+
+    #[test]
+    fn strangers_are_no_picture_of_the_cast() {
+        let stage = stage();
+        let boards = [BOARDS[0], BOARDS[1], "8/8/8/8/8/8/8/K6Q", "8/8/8/8/8/8/8/7R"];
+        let [one, other, stranger, lacking] = scenes(&stage, boards);
+        let gaze = Gaze { orbit: 5.0, ..Gaze::default() };
+        let turned = stage.scene(&Frame { gaze, ..frame(BOARDS[1]) });
+        let mut cast = cast(&[one.clone(), other, turned.clone(), stranger.clone()]);
+        assert_eq!(cast.pictures(), 2);
+        for scene in [stranger, turned, lacking] {
+            assert!(cast.stand(&scene, 0).is_none());
+        }
+        assert!(cast.stand(&one, 0).is_some());
+    }
+
+    #[test]
+    fn a_cast_ends_where_there_is_no_room_for_more() {
+        let stage = stage();
+        // Each picture has a full rank that was never there.
+        let boards = ["pppppppp", "nnnnnnnn", "bbbbbbbb"].into_iter().flat_map(|rank| {
+            (0..8).map(move |row| {
+                let ranks = (0..8).map(|other| if other == row { rank } else { "8" });
+                ranks.collect::<Vec<_>>().join("/")
+            })
+        });
+        let scenes: Vec<Scene> = boards.map(|board| stage.scene(&frame(&board))).collect();
+        let cast = cast(&scenes);
+        assert_eq!([cast.pictures(), cast.members().len()], [MEMBERS / 8, MEMBERS]);
+    }
+
+    #[test]
+    fn what_comes_and_what_goes_is_a_change() {
+        let [one, other, ..] = scenes(&stage(), BOARDS);
+        assert!(change((&one, 0b01), (&one, 0b01)).unwrap().is_empty());
+        let moved = change((&one, 0b01), (&other, 0b10)).unwrap();
+        assert!([0b01, 0b10].into_iter().all(|member| moved.meet(&Ties::new(0, member))));
+        assert!(!moved.meet(&Ties::new(u64::MAX, 0b100)));
+    }
+}
