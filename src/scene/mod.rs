@@ -134,7 +134,7 @@ impl Cells {
         let (x, z) = (origin.x + column * side, origin.y + row * side);
         let asides = [x - min.x, max.x - x, z - min.z, max.z - z];
         let keeps = asides.iter().all(|aside| *aside <= reach) && min.y >= low && max.y <= high;
-        (is_there && keeps).then(|| (Cells::SIDE * row + column) as usize)
+        (is_there && keeps).then_some((Cells::SIDE * row + column) as usize)
     }
 }
 
