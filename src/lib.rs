@@ -38,7 +38,7 @@
 //! measured by the scene on its solids and told to the timeline ([`timeline::Bodies`]). `export` reads what
 //! scenes are made of, and so uses `assets` (bitmaps) and `config` (kinds of mapping and filter) too. What can stay
 //! of a picture is known by bodies, not by squares: the tracer is told which pictures are to come, and each pixel
-//! knows which of the bodies that come and go in them its rays meet, or would meet. Where it differs
+//! knows which of the bodies that come and go in them its rays meet, or would meet. Where the program differs
 //! from the thesis: light loses a share at each surface of glass, where the thesis has full shadows;
 //! total internal reflection throws all back, whatever the material's shares; colours are cut to what
 //! can be shown when they are stored, not at each surface.

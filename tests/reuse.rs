@@ -9,7 +9,7 @@ use lightsquare::config::{Config, Look, ShowClock, View};
 use lightsquare::game::{Game, Source};
 use lightsquare::job::Showing;
 use lightsquare::notation::{Piece, Role, Square};
-use lightsquare::scene::{Scene, Stage};
+use lightsquare::scene::{Object, Scene, Stage};
 use lightsquare::timeline::{Film, Frame, Gaze, Mover, Pause, Spot, Timeline};
 use lightsquare::tracer::{Antialiasing, RayCounts, Tracer, render};
 
@@ -195,6 +195,49 @@ fn any_picture_may_follow_any_other() {
     }
 }
 
+/// Bodies are the same in scenes that are built anew; a clock's faces too, that are looked at ahead of their time.
+#[test]
+fn scenes_that_are_built_anew_are_known_again() {
+    for look in [Look::Thesis, Look::Studio] {
+        let Show { stage, frames } = show(look, |_| {});
+        let frames = &frames[..24];
+        let dials = frames.windows(2).filter(|pair| pair[0].dials != pair[1].dials).count();
+        assert!(dials > 4, "the clock runs");
+        let mut tracer = Tracer::new(WIDTH, HEIGHT, ADAPTIVE);
+        let (mut rays, mut all) = (0, 0);
+        for (index, frame) in frames.iter().enumerate() {
+            let coming = frames[index + 1..].iter().map(|frame| stage.scene(frame));
+            let (found, counts) = tracer.picture(&stage.scene(frame), coming);
+            let (expected, whole) = render(&stage.scene(frame), WIDTH, HEIGHT, ADAPTIVE);
+            assert!(found == expected, "{look:?}, picture {index}");
+            (rays, all) = (rays + counts.total(), all + whole.total());
+        }
+        assert!(2 * rays < all, "{look:?}: {rays} rays of {all}");
+    }
+}
+
+/// Bodies in one place, twice the same body, and bodies in another order.
+#[test]
+fn bodies_that_are_in_each_others_place_are_seen_as_they_are() {
+    let Show { stage, frames } = show(Look::Thesis, |config| config.theme = "glass".to_owned());
+    let scene = stage.scene(&frames[0]);
+    let change = |change: fn(&mut Vec<Object>)| {
+        let mut scene = scene.clone();
+        change(&mut scene.objects);
+        scene
+    };
+    let scenes = [
+        change(|_| {}),
+        change(|objects| objects.extend_from_within(objects.len() - 2..)),
+        change(|objects| objects.extend_from_within(objects.len() - 1..)),
+        change(|_| {}),
+        change(|objects| objects.reverse()),
+        change(|objects| objects.rotate_left(3)),
+        change(|objects| objects.truncate(20)),
+    ];
+    assert_reuse("in one place", &scenes, Antialiasing::Grid(2));
+}
+
 /// What is told of pictures to come need not be true.
 #[test]
 fn pictures_are_the_same_whatever_was_told_of_them() {
@@ -236,8 +279,8 @@ fn any_number_of_threads_gives_the_same_bytes() {
     }
 }
 
-/// Where rays are said to pass bodies' places less widely than bodies stand in them, some of what changed is
-/// missed: what holds pictures together is what is held here.
+/// Where rays look out for smaller bodies than those that come, some of what changes is missed: what holds
+/// pictures together is what is held here.
 #[test]
 fn a_body_that_is_wider_than_its_envelope_is_caught() {
     for look in [Look::Thesis, Look::Studio] {

@@ -148,7 +148,9 @@ impl<'a> Studio<'a> {
 
     /// The scene of a frame, without words; those that are `coming` are to follow.
     pub fn trace(&mut self, frame: &Frame, coming: impl Iterator<Item = Frame>) -> DynamicImage {
-        let (settings, mut last) = (self.settings, frame.clone());
+        let settings = self.settings;
+        let frame = &shown_of(settings, frame);
+        let mut last = frame.clone();
         let others = coming.map(|frame| shown_of(settings, &frame)).filter(|frame| {
             let is_other = !frame.shows_the_same(&last);
             last.clone_from(frame);

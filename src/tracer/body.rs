@@ -113,8 +113,7 @@ impl Body {
         Crossing::select(within & t.lt(before), Crossing { t, part: U32x8::splat(ROOF) }, found)
     }
 
-    /// Whether [`Body::first`] finds anything. Solids say the same of both questions, to the bit, and this one is
-    /// cheaper.
+    /// Whether [`Body::first`] finds anything: yes wherever it does. This is cheaper.
     #[inline(always)]
     pub fn is_met<S: Simd>(&self, rays: &Rays<S>, before: F32x8<S>, lanes: Mask8<S>) -> Mask8<S> {
         if self.roof.is_some() {

@@ -38,16 +38,13 @@ pub struct Cast {
     share: f64,
 }
 
-/// No more pictures than these are looked at.
-const FARTHEST: usize = 512;
-
 impl Cast {
-    /// The cast of `scene` and of as many of those after it as it has room for.
+    /// The cast of `scene` and of as many of those that are `coming` as it has room for.
     pub fn new(scene: &Scene, coming: impl Iterator<Item = Scene>) -> Cast {
         let mut known =
             Known { objects: scene.objects.clone(), goes: vec![false; scene.objects.len()] };
         let mut pictures = vec![(0..scene.objects.len()).collect::<Vec<_>>()];
-        for other in coming.take(FARTHEST) {
+        for other in coming {
             let picture = if is_alike(scene, &other) { known.admit(&other) } else { None };
             match picture {
                 Some(picture) => pictures.push(picture),
@@ -85,6 +82,11 @@ impl Cast {
     /// How many pictures there are.
     pub fn pictures(&self) -> usize {
         self.present.len()
+    }
+
+    /// Whether any picture but the first was made.
+    pub fn is_of_use(&self) -> bool {
+        self.now > 0
     }
 
     pub fn members(&self) -> &[Object] {
@@ -129,7 +131,8 @@ impl Cast {
         Some(Stand { scene: Scene { objects, ..scene.clone() }, present, over })
     }
 
-    /// The members that are in `scene`; `None` if there is anything else in it, or anything lacking.
+    /// The members that are in `scene`; `None` if there is anything else in it, or anything lacking, or anything
+    /// twice.
     fn present_in(&self, scene: &Scene) -> Option<u128> {
         if !is_alike(&self.first, scene) {
             return None;
@@ -137,6 +140,7 @@ impl Cast {
         let (mut present, mut fixed) = (0, 0);
         for object in &scene.objects {
             match self.number(object) {
+                Some(number) if present >> number & 1 == 1 => return None,
                 Some(number) => present |= 1 << number,
                 None if self.fixed.iter().any(|known| known.is_same(object)) => fixed += 1,
                 None => return None,
@@ -158,9 +162,13 @@ impl Known {
     fn admit(&mut self, scene: &Scene) -> Option<Vec<usize>> {
         let (count, goes) = (self.objects.len(), self.goes.clone());
         let mut picture = Vec::with_capacity(scene.objects.len());
+        // No body may be there twice.
+        let mut is_whole = true;
         for object in &scene.objects {
             let known = self.objects.iter().position(|known| known.is_same(object));
-            picture.push(known.unwrap_or(self.objects.len()));
+            let index = known.unwrap_or(self.objects.len());
+            is_whole &= !picture.contains(&index);
+            picture.push(index);
             if known.is_none() {
                 self.objects.push(object.clone());
                 self.goes.push(true);
@@ -172,7 +180,7 @@ impl Known {
         let changing = || self.objects.iter().zip(&self.goes).filter(|(_, goes)| **goes);
         // What has no end is everywhere.
         let are_small = changing().all(|(object, _)| object.body.bounds().is_finite());
-        if changing().count() > MEMBERS || !are_small {
+        if changing().count() > MEMBERS || !are_small || !is_whole {
             self.objects.truncate(count);
             self.goes = goes;
             return None;
@@ -192,9 +200,15 @@ pub struct Stand {
 
 /// What changes between two pictures of a cast with these members; `None` if that is not known.
 pub fn change(one: (&Scene, u128), other: (&Scene, u128)) -> Option<Ties> {
-    let mut cells = 0;
+    let (mut cells, mut last) = (0, None);
     for old in &one.0.objects {
-        let Some(new) = other.0.objects.iter().find(|new| new.is_same(old)) else { continue };
+        let found = other.0.objects.iter().position(|new| new.is_same(old));
+        let Some(index) = found else { continue };
+        // Of surfaces in one place that of the first body is seen: those that stay keep their order.
+        if last.replace(index) > Some(index) {
+            return None;
+        }
+        let new = &other.0.objects[index];
         cells |= match (&old.paint, &new.paint) {
             (None, None) => 0,
             (Some(old), Some(new)) => repainted(old, new),

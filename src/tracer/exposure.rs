@@ -153,7 +153,7 @@ impl<E: Eye<[Sample], Glimpse>> Exposure<E> {
         Exposure { eye, sizes, background: scene.background, behind }
     }
 
-    /// Adds samples to some of the pixels, up to the number that each of them `wanted`, and the regions that they
+    /// Adds samples to some of the pixels, up to the number that each of them `wanted`, and what they
     /// depend on.
     fn add(
         &self,

@@ -32,8 +32,13 @@ pub struct Tracer {
     shelf: Shelf,
     /// 1, but in a test.
     share: f64,
+    /// How many pictures to come are looked at; few, where what was told of them was not true.
+    ahead: usize,
     last: Option<Last>,
 }
+
+/// No more pictures than these are looked at.
+const FARTHEST: usize = 512;
 
 /// What is known of the last picture.
 struct Last {
@@ -61,7 +66,14 @@ trait Work<T> {
 impl Tracer {
     /// For pictures of `width` × `height` pixels.
     pub fn new(width: u32, height: u32, mode: Antialiasing) -> Tracer {
-        Tracer { size: [width, height], mode, shelf: Shelf::default(), share: 1.0, last: None }
+        Tracer {
+            size: [width, height],
+            mode,
+            shelf: Shelf::default(),
+            share: 1.0,
+            ahead: FARTHEST,
+            last: None,
+        }
     }
 
     /// For a test: the same, with the bodies that rays look out for made smaller by the factor `share`. What
@@ -79,6 +91,7 @@ impl Tracer {
         scene: &Scene,
         coming: impl IntoIterator<Item = Scene>,
     ) -> (DynamicImage, RayCounts) {
+        let was_told = self.last.as_ref().is_none_or(|last| last.cast.is_of_use());
         let known = self.last.take().and_then(|mut last| {
             let stand = last.cast.stand(scene, last.present)?;
             let changed = change((&last.scene, last.present), (&stand.scene, stand.present))?;
@@ -98,7 +111,9 @@ impl Tracer {
                 (cast, stand, kept, picture, counts)
             }
             None => {
-                let mut cast = Cast::new(scene, coming.into_iter()).shrunk(self.share);
+                self.ahead = if was_told { (2 * self.ahead).min(FARTHEST) } else { 1 };
+                let coming = coming.into_iter().take(self.ahead);
+                let mut cast = Cast::new(scene, coming).shrunk(self.share);
                 let stand = cast.stand(scene, 0);
                 let Some(stand) = stand.filter(|_| cast.pictures() > 1) else {
                     let (kept, counts) = self.whole(scene, None);

@@ -176,7 +176,7 @@ impl<'a> World<'a> {
                         found.t = closer.select(crossing.t, found.t);
                         found.body = closer.select_words(number, found.body);
                         found.part = closer.select_words(crossing.part, found.part);
-                        search.before = found.t;
+                        search.before = found.t * F32x8::splat(1.0 + 4.0 * f32::EPSILON);
                     },
                 );
                 if let (Some(ties), Some(absent)) = (ties, &self.absent) {

@@ -6,6 +6,7 @@ mod digits;
 mod face;
 mod reading;
 
+use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use glam::{DAffine3, DVec3};
@@ -88,9 +89,13 @@ pub struct Clock {
     brass: Surface,
     filter: Filter,
     is_linear: bool,
-    /// The face that was painted last, and what it shows: most frames show the same.
-    painted: Mutex<Option<([Reading; 2], Surface)>>,
+    /// The faces that were painted last, and what they show: most frames show the same, and a frame that was
+    /// looked at ahead of its time is to be known again.
+    painted: Mutex<VecDeque<([Reading; 2], Surface)>>,
 }
+
+/// So many faces are kept (each takes about 0.5 MB): more than a row of pictures has bodies that come and go.
+const FACES: usize = 144;
 
 impl Clock {
     /// A clock at a [`place`].
@@ -129,11 +134,16 @@ impl Clock {
         let rocker = translation(DVec3::Y * (CASE.max.y + ROCKER_HEIGHT)) * rotation_x(tilt);
         let shown = [left, right];
         let mut painted = self.painted.lock().unwrap_or_else(PoisonError::into_inner);
-        let face = match painted.take() {
-            Some((last, face)) if last == shown => face,
-            _ => self.face(&shown),
+        let known = painted.iter().find(|(known, _)| *known == shown);
+        let face = match known.map(|(_, face)| face.clone()) {
+            Some(face) => face,
+            None => {
+                let face = self.face(&shown);
+                painted.truncate(FACES - 1);
+                painted.push_front((shown, face.clone()));
+                face
+            }
         };
-        *painted = Some((shown, face.clone()));
         let still = DAffine3::IDENTITY;
         let parts = [
             (still, self.case.clone()),
