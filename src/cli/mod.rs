@@ -118,7 +118,7 @@ pub enum Command {
     /// Write the scene of one position for another renderer
     #[command(after_help = EXPORT_EXAMPLES)]
     Export(ExportArgs),
-    /// Measure the thesis's picture at the thesis's three settings
+    /// Measure the thesis's picture at the thesis's three settings, and a game
     #[command(after_help = BENCH_EXAMPLES)]
     Bench(BenchArgs),
 }
