@@ -1,9 +1,8 @@
 //! Axis-aligned boxes round solids.
 
-use glam::{DAffine3, DVec2, DVec3};
+use glam::{DAffine3, DVec3};
 
-use super::csg::Root;
-use super::{Interval, Operation, Ray, Shape, Solid};
+use super::{Interval, Ray};
 
 /// An axis-aligned box, from `min` to `max`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,52 +54,13 @@ impl Bounds {
         Bounds::of(self.corners().map(|corner| transform.transform_point3(corner)))
     }
 
-    /// The smallest box that is known to hold a solid that `place` has moved: what is round is no wider for being
-    /// turned, as the box round it is.
-    pub fn placed(solid: &dyn Solid, place: &DAffine3) -> Bounds {
-        // A disk or ball of radius 1 along some axes reaches as far as their common length.
-        let reach =
-            |axes: &[DVec3]| axes.iter().map(|axis| axis * axis).sum::<DVec3>().map(f64::sqrt);
-        let round = |middle: DVec3, reach: DVec3| {
-            let middle = place.transform_point3(middle);
-            Bounds { min: middle - reach, max: middle + reach }
-        };
-        let axes = place.matrix3;
-        match solid.shape() {
-            Shape::Sphere(sphere) => round(
-                sphere.center,
-                reach(&[axes.x_axis, axes.y_axis, axes.z_axis]) * sphere.radius,
-            ),
-            Shape::Lathe(lathe) => {
-                let disk = reach(&[axes.x_axis, axes.z_axis]);
-                let ends = lathe.segments().iter().flat_map(|segment| [segment.from, segment.to]);
-                ends.map(|end: DVec2| round(DVec3::Y * end.y, disk * end.x))
-                    .fold(Bounds::EMPTY, Bounds::union)
-            }
-            Shape::Prism(prism) => {
-                let own = solid.bounds();
-                let ends = prism.segments().iter().map(|segment| segment.from);
-                Bounds::of(
-                    ends.flat_map(|end| [end.extend(own.min.z), end.extend(own.max.z)])
-                        .map(|corner| place.transform_point3(corner)),
-                )
-            }
-            Shape::Placed(placed) => Bounds::placed(placed.solid(), &(*place * placed.transform())),
-            Shape::Csg(csg) => match csg.root() {
-                Root::Leaf(solid) => Bounds::placed(solid, place),
-                Root::Pair(operation, first, second) => {
-                    let first = Bounds::placed(first, place);
-                    match operation {
-                        Operation::Union => first.union(Bounds::placed(second, place)),
-                        Operation::Intersection => {
-                            first.intersection(Bounds::placed(second, place))
-                        }
-                        Operation::Difference => first,
-                    }
-                }
-            },
-            _ => solid.bounds().transformed(place),
-        }
+    /// Round a ball that `place` has moved: of radius `radius` along the given axes of its own space.
+    pub fn round(middle: DVec3, radius: f64, axes: &[DVec3], place: &DAffine3) -> Bounds {
+        // It reaches as far along each axis of the world as the length of all its own axes' shares of that.
+        let squares = axes.iter().map(|axis| place.transform_vector3(*axis));
+        let reach = squares.map(|axis| axis * axis).sum::<DVec3>().map(f64::sqrt) * radius;
+        let middle = place.transform_point3(middle);
+        Bounds { min: middle - reach, max: middle + reach }
     }
 
     /// Its eight corners.
@@ -140,23 +100,6 @@ impl Bounds {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::transform::{rotation_y, translation};
-    use crate::geometry::{ControlPoint, Csg, Cuboid, Lathe, Normals, Profile};
-
-    #[test]
-    fn what_is_round_is_no_wider_for_being_turned() {
-        let points = [(0.0, 0.0), (1.0, 0.0), (0.4, 2.0), (0.0, 2.0)];
-        let points = points.map(|(u, v)| ControlPoint { at: DVec2::new(u, v), corner: true });
-        let profile = Profile::new(points.to_vec()).expect("a profile");
-        let lathe = Lathe::new(&profile, 0, Normals::Flat).expect("a lathe");
-        let cube = Csg::leaf(Cuboid::centered(DVec3::splat(0.5)));
-        let body = Csg::leaf(lathe).or(cube.clone()).minus(cube.placed(translation(DVec3::Y)));
-        let Bounds { min, max } = Bounds::placed(&body, &rotation_y(30.0));
-        assert!(min.distance(DVec3::new(-1.0, -0.5, -1.0)) < 1e-12, "{min}");
-        assert!(max.distance(DVec3::new(1.0, 2.0, 1.0)) < 1e-12, "{max}");
-        let boxes = Bounds::placed(&body, &DAffine3::IDENTITY).transformed(&rotation_y(30.0));
-        assert!(boxes.max.x > 1.3);
-    }
 
     #[test]
     fn a_ray_along_an_axis_is_clipped_by_that_axis_alone() {

@@ -41,6 +41,15 @@ impl Operation {
             Operation::Difference => in_first && !in_second,
         }
     }
+
+    /// A box that holds what comes of solids in two boxes.
+    fn bounds(self, first: Bounds, second: Bounds) -> Bounds {
+        match self {
+            Operation::Union => first.union(second),
+            Operation::Intersection => first.intersection(second),
+            Operation::Difference => first,
+        }
+    }
 }
 
 impl Csg {
@@ -51,27 +60,22 @@ impl Csg {
 
     /// What lies in this or in `other`.
     pub fn or(self, other: Csg) -> Csg {
-        let bounds = self.bounds.union(other.bounds);
-        self.joined(Operation::Union, other, bounds)
+        self.joined(Operation::Union, other)
     }
 
     /// What lies in this and in `other`.
     pub fn and(self, other: Csg) -> Csg {
-        let bounds = self.bounds.intersection(other.bounds);
-        self.joined(Operation::Intersection, other, bounds)
+        self.joined(Operation::Intersection, other)
     }
 
     /// What lies in this but not in `other`.
     pub fn minus(self, other: Csg) -> Csg {
-        let bounds = self.bounds;
-        self.joined(Operation::Difference, other, bounds)
+        self.joined(Operation::Difference, other)
     }
 
     /// The whole tree, moved by an invertible `transform`.
     pub fn placed(self, transform: DAffine3) -> Csg {
-        // Cameras and tall moves keep to the boxes of sets; those are as they have always been.
-        let bounds = self.bounds.transformed(&transform);
-        Csg { bounds, ..Csg::leaf(Placed::new(Arc::new(self), transform)) }
+        Csg::leaf(Placed::new(Arc::new(self), transform))
     }
 
     /// The tree's root: a solid by itself, or two trees and how they are joined.
@@ -82,7 +86,8 @@ impl Csg {
         }
     }
 
-    fn joined(self, operation: Operation, other: Csg, bounds: Bounds) -> Csg {
+    fn joined(self, operation: Operation, other: Csg) -> Csg {
+        let bounds = operation.bounds(self.bounds, other.bounds);
         Csg { node: Node::Pair(operation, Box::new([self, other])), bounds }
     }
 }
@@ -94,6 +99,15 @@ impl Solid for Csg {
 
     fn bounds(&self) -> Bounds {
         self.bounds
+    }
+
+    fn placed_bounds(&self, place: &DAffine3) -> Bounds {
+        match &self.node {
+            Node::Leaf(solid) => solid.placed_bounds(place),
+            Node::Pair(operation, pair) => {
+                operation.bounds(pair[0].placed_bounds(place), pair[1].placed_bounds(place))
+            }
+        }
     }
 
     fn contains(&self, point: DVec3) -> bool {
@@ -220,4 +234,28 @@ fn combine(operation: Operation, first: &Spans, second: &Spans, spans: &mut Span
 fn take(index: &mut usize, end: Hit) -> Hit {
     *index += 1;
     end
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec2;
+
+    use super::*;
+    use crate::geometry::transform::{rotation_y, translation};
+    use crate::geometry::{ControlPoint, Cuboid, Lathe, Normals, Profile};
+
+    #[test]
+    fn what_is_round_is_no_wider_for_being_turned() {
+        let points = [(0.0, 0.0), (1.0, 0.0), (0.4, 2.0), (0.0, 2.0)];
+        let points = points.map(|(u, v)| ControlPoint { at: DVec2::new(u, v), corner: true });
+        let profile = Profile::new(points.to_vec()).expect("a profile");
+        let lathe = Lathe::new(&profile, 0, Normals::Flat).expect("a lathe");
+        let cube = Csg::leaf(Cuboid::centered(DVec3::splat(0.5)));
+        let body = Csg::leaf(lathe).or(cube.clone()).minus(cube.placed(translation(DVec3::Y)));
+        let Bounds { min, max } = body.placed_bounds(&rotation_y(30.0));
+        assert!(min.distance(DVec3::new(-1.0, -0.5, -1.0)) < 1e-12, "{min}");
+        assert!(max.distance(DVec3::new(1.0, 2.0, 1.0)) < 1e-12, "{max}");
+        let boxes = body.bounds().transformed(&rotation_y(30.0));
+        assert!(boxes.max.x > 1.3);
+    }
 }

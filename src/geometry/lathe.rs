@@ -6,7 +6,7 @@
 //! quadratic in t (Turek 2008, 3.7.5, with the segment in normal form: steep and flat segments
 //! are then the same case).
 
-use glam::{DVec2, DVec3};
+use glam::{DAffine3, DVec2, DVec3};
 
 use super::polygon::{Normals, Segment, surround};
 use super::{Bounds, CurveError, Hit, Interval, Profile, Ray, Shape, Solid, Span, Spans};
@@ -244,6 +244,13 @@ impl Solid for Lathe {
 
     fn bounds(&self) -> Bounds {
         self.bounds
+    }
+
+    fn placed_bounds(&self, place: &DAffine3) -> Bounds {
+        let ends = self.segments.iter().flat_map(|segment| [segment.from, segment.to]);
+        let disk =
+            |end: DVec2| Bounds::round(DVec3::Y * end.y, end.x, &[DVec3::X, DVec3::Z], place);
+        ends.map(disk).fold(Bounds::EMPTY, Bounds::union)
     }
 
     fn contains(&self, point: DVec3) -> bool {

@@ -30,7 +30,7 @@ pub use prism::Prism;
 pub use ray::{Hit, Interval, Ray, Span, Spans};
 pub use sphere::Sphere;
 
-use glam::DVec3;
+use glam::{DAffine3, DVec3};
 
 /// What a solid is, for those who write it down.
 pub enum Shape<'a> {
@@ -50,6 +50,12 @@ pub trait Solid: Send + Sync {
 
     /// The smallest box that is known to hold the whole solid.
     fn bounds(&self) -> Bounds;
+
+    /// The smallest box that is known to hold the whole solid where `place` has moved it: what is round is no
+    /// wider for being turned, as the box round it is.
+    fn placed_bounds(&self, place: &DAffine3) -> Bounds {
+        self.bounds().transformed(place)
+    }
 
     /// Whether `point` lies inside.
     fn contains(&self, point: DVec3) -> bool;

@@ -21,7 +21,7 @@ impl Placed {
     pub fn new(solid: Arc<dyn Solid>, transform: DAffine3) -> Placed {
         let to_own = transform.inverse();
         Placed {
-            bounds: Bounds::placed(&*solid, &transform),
+            bounds: solid.placed_bounds(&transform),
             normals: to_own.matrix3.transpose(),
             transform,
             to_own,
@@ -85,6 +85,10 @@ impl Solid for Placed {
 
     fn bounds(&self) -> Bounds {
         self.bounds
+    }
+
+    fn placed_bounds(&self, place: &DAffine3) -> Bounds {
+        self.solid.placed_bounds(&(*place * self.transform))
     }
 
     fn contains(&self, point: DVec3) -> bool {

@@ -1,6 +1,6 @@
 //! Prisms: a closed outline in the plane of x and y, pushed along the z axis.
 
-use glam::{DVec2, DVec3};
+use glam::{DAffine3, DVec2, DVec3};
 use smallvec::{SmallVec, smallvec};
 
 use super::polygon::{Normals, Segment, surround};
@@ -124,6 +124,14 @@ impl Solid for Prism {
 
     fn bounds(&self) -> Bounds {
         self.bounds
+    }
+
+    fn placed_bounds(&self, place: &DAffine3) -> Bounds {
+        let ends = self.segments.iter().map(|segment| segment.from);
+        let corners = ends.flat_map(|end| {
+            [self.bounds.min.z, self.bounds.max.z].map(|z| place.transform_point3(end.extend(z)))
+        });
+        Bounds::of(corners)
     }
 
     fn contains(&self, point: DVec3) -> bool {

@@ -1,6 +1,6 @@
 //! Spheres.
 
-use glam::DVec3;
+use glam::{DAffine3, DVec3};
 
 use super::{Bounds, Hit, Ray, Shape, Solid, Span, Spans};
 
@@ -18,6 +18,10 @@ impl Solid for Sphere {
 
     fn bounds(&self) -> Bounds {
         Bounds { min: self.center - self.radius, max: self.center + self.radius }
+    }
+
+    fn placed_bounds(&self, place: &DAffine3) -> Bounds {
+        Bounds::round(self.center, self.radius, &DVec3::AXES, place)
     }
 
     fn contains(&self, point: DVec3) -> bool {

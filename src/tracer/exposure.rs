@@ -55,12 +55,6 @@ impl Glimpse {
     pub fn new(light: Vec3, cover: f32, outlook: Outlook) -> Glimpse {
         Glimpse { light: light.min(Vec3::splat(BRIGHTEST)), cover, outlook }
     }
-
-    /// The light when of that of an open sky there is so much by channel.
-    fn under(&self, share_of_sky: Option<Vec3>) -> Vec3 {
-        let Outlook { sky, open_sky, .. } = self.outlook;
-        share_of_sky.map_or(self.light, |share| self.light - sky + open_sky * share)
-    }
 }
 
 /// Develops what an eye sees.
@@ -194,7 +188,7 @@ impl<E: Eye<[Sample], Glimpse>> Exposure<E> {
 
     /// What the samples show: their light through the tone curve, over the background.
     fn developed(&self, sum: &Sum, share_of_sky: Option<Vec3>) -> Pixel {
-        let light = sum.light_under(share_of_sky);
+        let light = sum.outlook.under(sum.light, share_of_sky);
         let cover = sum.cover / f64::from(sum.count);
         let color = if cover == 0.0 {
             Rgb::ZERO
@@ -306,19 +300,13 @@ impl Sum {
         let mut outlook = glimpse.outlook;
         outlook.weigh(Vec3::splat(glimpse.cover));
         self.outlook.add(&outlook);
-        let shown = shown(glimpse.under(share_of_sky).as_dvec3()) * cover
+        let shown = shown(glimpse.outlook.under(light, share_of_sky)) * cover
             + behind.unwrap_or(0.0) * (1.0 - cover);
         self.shown += shown;
         self.squares += shown * shown;
         if behind.is_none() {
             self.covers += cover * cover;
         }
-    }
-
-    /// The light when of that of an open sky there is so much by channel.
-    fn light_under(&self, share_of_sky: Option<Vec3>) -> DVec3 {
-        let Outlook { sky, open_sky, .. } = self.outlook;
-        share_of_sky.map_or(self.light, |share| self.light + (open_sky * share - sky).as_dvec3())
     }
 
     /// How bright the mean looks.

@@ -4,7 +4,7 @@
 //! the way of the sky changes so slowly from pixel to pixel that all of them together know it better than
 //! the samples of one.
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 use crate::lanes::{F32x8, Mask8, Simd, U32x8, Vec3x8};
 
@@ -42,6 +42,14 @@ impl Outlook {
     /// Of the light of an open sky what there really is, by channel; `None` where nobody has asked.
     pub fn share_of_sky(&self) -> Option<Vec3> {
         (self.open_sky.min_element() > 0.0).then(|| self.sky / self.open_sky)
+    }
+
+    /// What becomes of `light` that has this light of the sky in it, where of that of an open sky there is such a
+    /// share. (Light is cut where it is too bright, the sky's part of it is not.)
+    pub fn under(&self, light: DVec3, share_of_sky: Option<Vec3>) -> DVec3 {
+        share_of_sky.map_or(light, |share| {
+            (light + (self.open_sky * share - self.sky).as_dvec3()).max(DVec3::ZERO)
+        })
     }
 
     /// What need not be asked again.

@@ -57,10 +57,16 @@ enum Kept {
     Studio(Sketch<Sum>),
 }
 
-/// Does something with the painter of a scene.
-trait Work<T> {
-    fn phong(self, painter: &impl Painter<Look = Seen>) -> T;
-    fn studio(self, painter: &impl Painter<Look = Sum>) -> T;
+/// What painters keep of a pixel.
+trait Look: Copy + Send + Sync {
+    fn kept(sketch: Sketch<Self>) -> Kept;
+    fn sketch(kept: &mut Kept) -> Option<&mut Sketch<Self>>;
+}
+
+/// What is to be done by the painter of a scene.
+trait Work {
+    type Done;
+    fn with<L: Look>(self, painter: &impl Painter<Look = L>) -> (Self::Done, RayCounts);
 }
 
 impl Tracer {
@@ -103,7 +109,7 @@ impl Tracer {
                 let mut counts = RayCounts::default();
                 if !changed.is_empty() {
                     let work = Repaint(&mut kept, &changed);
-                    let (mask, rays) = self.with_painter(&stand.scene, Some(&cast), work);
+                    let (mask, rays) = self.paint(&stand.scene, Some(&cast), work);
                     let pixels = kept.picture();
                     pixel::set(&mut picture, mask.spots().map(|spot| (spot, pixels.at(spot))));
                     counts = rays;
@@ -127,7 +133,7 @@ impl Tracer {
         let mut picture = standing.clone();
         if stand.over != 0 {
             let over = Ties::new(0, stand.over);
-            let (overlay, rays) = self.with_painter(scene, None, Overpaint(&mut kept, &over));
+            let (overlay, rays) = self.paint(scene, None, Overpaint(&mut kept, &over));
             pixel::set(&mut picture, overlay.mask.spots().zip(overlay.values));
             counts = counts + rays;
         }
@@ -141,21 +147,21 @@ impl Tracer {
         let others = cast.map_or(&[][..], Cast::members);
         let some = silhouette(&scene.camera, scene.objects.iter().chain(others), self.size);
         let work = Whole { some, size: self.size, keeps: cast.is_some() };
-        self.with_painter(scene, cast, work)
+        self.paint(scene, cast, work)
     }
 
-    /// Has something done with the painter of `scene`, who tells what depends on the members of `cast`.
-    fn with_painter<T>(&self, scene: &Scene, cast: Option<&Cast>, work: impl Work<T>) -> T {
+    /// Has something done by the painter of `scene`, who tells what depends on the members of `cast`.
+    fn paint<W: Work>(&self, scene: &Scene, cast: Option<&Cast>, work: W) -> (W::Done, RayCounts) {
         let world = World::new(scene, &self.shelf, cast);
         match &scene.room {
             None => {
                 let eye = Phong::new(world, self.size);
-                work.phong(&Sampling::new(eye, scene, self.mode))
+                work.with(&Sampling::new(eye, scene, self.mode))
             }
             Some(room) => {
                 let sizes = Sizes::new(scene, self.mode);
                 let eye = Studio::new(world, room, self.size, sizes.across());
-                work.studio(&Exposure::new(eye, scene, sizes))
+                work.with(&Exposure::new(eye, scene, sizes))
             }
         }
     }
@@ -182,11 +188,11 @@ pub fn render_by_oracle(
     let size = [width, height];
     let work = Whole { some: Mask::full(size), size, keeps: false };
     let (kept, counts) = match &scene.room {
-        None => work.phong(&Sampling::new(oracle::Phong::new(scene, size), scene, mode)),
+        None => work.with(&Sampling::new(oracle::Phong::new(scene, size), scene, mode)),
         Some(room) => {
             let sizes = Sizes::new(scene, mode);
             let eye = oracle::Studio::new(scene, room, size, sizes.across());
-            work.studio(&Exposure::new(eye, scene, sizes))
+            work.with(&Exposure::new(eye, scene, sizes))
         }
     };
     (pixel::picture(kept.picture(), scene.background.is_none()), counts)
@@ -199,6 +205,30 @@ impl Kept {
             Kept::Studio(sketch) => &sketch.picture,
         }
     }
+
+    fn sketch<L: Look>(&mut self) -> &mut Sketch<L> {
+        L::sketch(self).expect("a scene with a room is never taken for one without")
+    }
+}
+
+impl Look for Seen {
+    fn kept(sketch: Sketch<Seen>) -> Kept {
+        Kept::Phong(sketch)
+    }
+
+    fn sketch(kept: &mut Kept) -> Option<&mut Sketch<Seen>> {
+        if let Kept::Phong(sketch) = kept { Some(sketch) } else { None }
+    }
+}
+
+impl Look for Sum {
+    fn kept(sketch: Sketch<Sum>) -> Kept {
+        Kept::Studio(sketch)
+    }
+
+    fn sketch(kept: &mut Kept) -> Option<&mut Sketch<Sum>> {
+        if let Kept::Studio(sketch) = kept { Some(sketch) } else { None }
+    }
 }
 
 struct Whole {
@@ -208,50 +238,31 @@ struct Whole {
     keeps: bool,
 }
 
-impl Work<(Kept, RayCounts)> for Whole {
-    fn phong(self, painter: &impl Painter<Look = Seen>) -> (Kept, RayCounts) {
-        let (sketch, counts) = Sketch::new(painter, &self.some, self.size, self.keeps);
-        (Kept::Phong(sketch), counts)
-    }
+impl Work for Whole {
+    type Done = Kept;
 
-    fn studio(self, painter: &impl Painter<Look = Sum>) -> (Kept, RayCounts) {
+    fn with<L: Look>(self, painter: &impl Painter<Look = L>) -> (Kept, RayCounts) {
         let (sketch, counts) = Sketch::new(painter, &self.some, self.size, self.keeps);
-        (Kept::Studio(sketch), counts)
+        (L::kept(sketch), counts)
     }
 }
 
 struct Repaint<'a>(&'a mut Kept, &'a Ties);
 
-impl Work<(Mask, RayCounts)> for Repaint<'_> {
-    fn phong(self, painter: &impl Painter<Look = Seen>) -> (Mask, RayCounts) {
-        match self.0 {
-            Kept::Phong(sketch) => sketch.repaint(painter, self.1),
-            Kept::Studio(_) => Default::default(),
-        }
-    }
+impl Work for Repaint<'_> {
+    type Done = Mask;
 
-    fn studio(self, painter: &impl Painter<Look = Sum>) -> (Mask, RayCounts) {
-        match self.0 {
-            Kept::Studio(sketch) => sketch.repaint(painter, self.1),
-            Kept::Phong(_) => Default::default(),
-        }
+    fn with<L: Look>(self, painter: &impl Painter<Look = L>) -> (Mask, RayCounts) {
+        self.0.sketch().repaint(painter, self.1)
     }
 }
 
 struct Overpaint<'a>(&'a mut Kept, &'a Ties);
 
-impl Work<(Overlay, RayCounts)> for Overpaint<'_> {
-    fn phong(self, painter: &impl Painter<Look = Seen>) -> (Overlay, RayCounts) {
-        match self.0 {
-            Kept::Phong(sketch) => sketch.overpaint(painter, self.1),
-            Kept::Studio(_) => Default::default(),
-        }
-    }
+impl Work for Overpaint<'_> {
+    type Done = Overlay;
 
-    fn studio(self, painter: &impl Painter<Look = Sum>) -> (Overlay, RayCounts) {
-        match self.0 {
-            Kept::Studio(sketch) => sketch.overpaint(painter, self.1),
-            Kept::Phong(_) => Default::default(),
-        }
+    fn with<L: Look>(self, painter: &impl Painter<Look = L>) -> (Overlay, RayCounts) {
+        self.0.sketch().overpaint(painter, self.1)
     }
 }

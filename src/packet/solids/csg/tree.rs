@@ -37,7 +37,7 @@ fn gather(solid: &dyn geometry::Solid, place: DAffine3, is_turned: bool) -> Tree
     match solid.shape() {
         Shape::Csg(csg) => gather_csg(csg, place, is_turned),
         Shape::Placed(placed) => gather(placed.solid(), place * placed.transform(), is_turned),
-        _ => Tree::Leaf(Placed { solid, place, is_turned, bounds: Bounds::placed(solid, &place) }),
+        _ => Tree::Leaf(Placed { solid, place, is_turned, bounds: solid.placed_bounds(&place) }),
     }
 }
 
