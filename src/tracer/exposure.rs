@@ -250,11 +250,7 @@ impl<E: Eye<[Sample], Glimpse>> Painter for Exposure<E> {
             around
         };
         let around: Vec<Sum> = spots.iter().map(around).collect();
-        // What is even is lit evenly.
-        let known = |(around, differs): (&Sum, &bool)| {
-            if *differs { Known::default() } else { around.outlook.known() }
-        };
-        let known: Vec<Known> = around.iter().zip(&differs).map(known).collect();
+        let known: Vec<Known> = around.iter().map(|around| around.outlook.known()).collect();
         loop {
             let wants = |index: &usize| {
                 self.sizes.wants_more(&sums[*index], &around[*index], differs[*index])
