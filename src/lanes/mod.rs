@@ -20,7 +20,7 @@ mod vector;
 
 #[cfg(target_arch = "x86_64")]
 pub use avx2::Avx2;
-pub use vector::Vec3x8;
+pub use vector::{Rows, Vec3x8};
 
 /// What needs no choice: every processor of a kind has it.
 #[cfg(target_arch = "x86_64")]

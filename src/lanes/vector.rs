@@ -14,6 +14,17 @@ pub struct Vec3x8<S: Simd> {
     pub z: F32x8<S>,
 }
 
+/// Eight vectors, by coordinate.
+pub struct Rows([[f32; 8]; 3]);
+
+impl Rows {
+    #[inline(always)]
+    pub fn lane(&self, lane: usize) -> Vec3 {
+        let [x, y, z] = &self.0;
+        Vec3::new(x[lane], y[lane], z[lane])
+    }
+}
+
 impl<S: Simd> Vec3x8<S> {
     #[inline(always)]
     pub fn new(x: F32x8<S>, y: F32x8<S>, z: F32x8<S>) -> Vec3x8<S> {
@@ -46,8 +57,14 @@ impl<S: Simd> Vec3x8<S> {
 
     #[inline(always)]
     pub fn store(self) -> [Vec3; 8] {
-        let (x, y, z) = (self.x.store(), self.y.store(), self.z.store());
-        std::array::from_fn(|lane| Vec3::new(x[lane], y[lane], z[lane]))
+        let rows = self.rows();
+        std::array::from_fn(|lane| rows.lane(lane))
+    }
+
+    /// The lanes one by one, where not all are copied at once: reading what was just written piece by piece waits.
+    #[inline(always)]
+    pub fn rows(self) -> Rows {
+        Rows([self.x.store(), self.y.store(), self.z.store()])
     }
 
     #[inline(always)]

@@ -96,13 +96,18 @@ fn moulded(
     let other = bar.clone().placed(translation(DVec3::Y * APART) * rotation_y(90.0));
     let body = bar.and(other).placed(translation(MIDDLE));
     let joinery = Joinery::new([dark, light, frame, inlay], has_inlay);
-    let squares = [-HALF, HALF].map(|half| DVec2::new(MIDDLE.x + half, MIDDLE.z + half));
-    Object { roof: Some(squares), ..Object::standing(body, Surface::Board(Arc::new(joinery))) }
+    // A hair within, where nothing is rounded.
+    let level = HALF + FRAME - ROUND - 1e-3;
+    let roof = [-level, level].map(|half| DVec2::new(MIDDLE.x + half, MIDDLE.z + half));
+    Object { roof: Some(roof), ..Object::standing(body, Surface::Board(Arc::new(joinery))) }
 }
 
 /// How much higher one of the bars lies: their tops must not be the same plane, where other renderers
 /// cannot choose between them.
 const APART: f64 = 1e-3;
+
+/// How far inwards the moulding reaches: from there on the top is level.
+const ROUND: f64 = 0.66;
 
 /// The moulding from the bottom of the board to its top: distance from the outer edge, height, and
 /// whether it is a corner.
@@ -114,7 +119,7 @@ const MOULDING: [(f64, f64, bool); 8] = [
     (0.3, -0.42, false),
     (0.36, -0.2, true),
     (0.46, -0.04, false),
-    (0.66, 0.0, true),
+    (ROUND, 0.0, true),
 ];
 
 fn section(subdivisions: u32, normals: Normals) -> Result<Prism, CurveError> {

@@ -6,7 +6,7 @@
 
 use glam::{DVec3, Vec3};
 
-use crate::lanes::{F32x8, Mask8, Simd, U32x8, Vec3x8};
+use crate::lanes::{self, F32x8, Mask8, Simd, U32x8, Vec3x8};
 
 /// The bit of what a mirror sees; softboxes have those below it by their numbers. More softboxes than there
 /// are bits are always asked.
@@ -141,19 +141,33 @@ impl<S: Simd> Outlooks<S> {
     }
 
     #[inline(always)]
-    pub fn store(&self) -> [Outlook; 8] {
-        let (free, hidden) = (self.free.store(), self.hidden.store());
-        let (sky, open_sky) = (self.sky.store(), self.open_sky.store());
-        let mut outlooks = [Outlook::default(); 8];
-        for (lane, outlook) in outlooks.iter_mut().enumerate() {
-            *outlook = Outlook {
-                free: free[lane],
-                hidden: hidden[lane],
-                sky: sky[lane],
-                open_sky: open_sky[lane],
-            };
+    pub fn rows(&self) -> Rows {
+        Rows {
+            free: self.free.store(),
+            hidden: self.hidden.store(),
+            sky: self.sky.rows(),
+            open_sky: self.open_sky.rows(),
         }
-        outlooks
+    }
+}
+
+/// What eight samples found out.
+pub struct Rows {
+    free: [u32; 8],
+    hidden: [u32; 8],
+    sky: lanes::Rows,
+    open_sky: lanes::Rows,
+}
+
+impl Rows {
+    #[inline(always)]
+    pub fn lane(&self, lane: usize) -> Outlook {
+        Outlook {
+            free: self.free[lane],
+            hidden: self.hidden[lane],
+            sky: self.sky.lane(lane),
+            open_sky: self.open_sky.lane(lane),
+        }
     }
 }
 
@@ -188,7 +202,8 @@ mod tests {
         assert_eq!(outlooks.known(MIRROR).map(|lanes| lanes.bits()), [0, 0]);
         outlooks.found(2, Mask8::from_bits(0b011), Mask8::from_bits(0b110));
         outlooks.found(MIRROR, Mask8::from_bits(0b100), Mask8::no_lanes());
-        let found = outlooks.store().map(|outlook| (outlook.free, outlook.hidden));
-        assert_eq!(found[..4], [(4, 0), (4, 4), (1 << MIRROR, 4), (0, 0)]);
+        let rows = outlooks.rows();
+        let found = [0, 1, 2, 3].map(|lane| (rows.lane(lane).free, rows.lane(lane).hidden));
+        assert_eq!(found, [(4, 0), (4, 4), (1 << MIRROR, 4), (0, 0)]);
     }
 }

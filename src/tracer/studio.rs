@@ -191,12 +191,12 @@ impl<'a> Studio<'a> {
         if endless.any() {
             cover = (hit & endless).select(one - melted(rays.at(meeting.t)), cover);
         }
-        let (light, cover, hit) = (light.store(), cover.store(), hit.bits());
-        let outlooks = draw.outlooks.store();
+        let (light, cover, hit) = (light.rows(), cover.store(), hit.bits());
+        let outlooks = draw.outlooks.rows();
         for lane in 0..samples.len() {
             let mut glimpse = Glimpse::default();
             if hit >> lane & 1 == 1 {
-                glimpse = Glimpse::new(light[lane], cover[lane], outlooks[lane]);
+                glimpse = Glimpse::new(light.lane(lane), cover[lane], outlooks.lane(lane));
             }
             seen.push(glimpse);
         }
