@@ -128,6 +128,13 @@ impl Stage {
             self.object(piece, frame.identities.get(square), Spot::on(square), 1.0)
         });
         let loose = frame.movers.iter().chain(&frame.taken).map(|mover| self.loose(mover));
+        // By where they are: then those that stay keep their order when others come and go.
+        let mut pieces: Vec<Object> = standing.chain(loose).collect();
+        pieces.sort_by(|one, other| {
+            let [one, other] = [one, other].map(|piece| piece.body.transform().translation);
+            let nearer = one.z.total_cmp(&other.z).then(one.x.total_cmp(&other.x));
+            nearer.then(one.y.total_cmp(&other.y))
+        });
         let mut fixed = self.fixed.clone();
         if let Some(squares) = fixed.first_mut() {
             self.paints.paint(squares, &frame.marks, &frame.placement);
@@ -135,7 +142,7 @@ impl Stage {
         let clock = self.clock.iter().flat_map(|clock| clock.objects(frame.dials.as_ref()));
         fixed.extend(clock);
         Scene {
-            objects: fixed.into_iter().chain(standing).chain(loose).collect(),
+            objects: fixed.into_iter().chain(pieces).collect(),
             cells: self.cells,
             lights: self.lights.clone(),
             camera: self.camera(&frame.gaze),

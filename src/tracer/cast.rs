@@ -225,8 +225,8 @@ mod tests {
     use crate::config::{Config, Look};
     use crate::notation::Placement;
     use crate::scene::{Reach, Stage};
-    use crate::timeline::{Frame, Gaze};
-    use shakmaty::Board;
+    use crate::timeline::{Frame, Gaze, Mover, Spot};
+    use shakmaty::{Board, Color, Square};
 
     fn stage() -> Stage {
         let mut config = Config::new(Look::Thesis);
@@ -273,6 +273,17 @@ mod tests {
         let twice = [&scenes[0], &scenes[0], &scenes[1]].map(Scene::clone);
         let stand = cast(&twice).stand(&twice[0], 0).unwrap();
         assert_eq!([stand.present, stand.over], [0b01, 0]);
+    }
+
+    #[test]
+    fn who_sets_out_changes_nothing_yet() {
+        let stage = stage();
+        let [rests, leaves] = ["7R/8/8/8/8/8/8/K6R", "7R/8/8/8/8/8/8/7R"].map(frame);
+        let (piece, square) = (Color::White.king(), Square::A1);
+        let mover = Mover { piece, identity: square, spot: Spot::on(square), size: 1.0 };
+        let leaves = Frame { movers: vec![mover], ..leaves };
+        let [rests, leaves] = [rests, leaves].map(|frame| stage.scene(&frame));
+        assert!(change((&rests, 0b1), (&leaves, 0b1)).unwrap().is_empty());
     }
 
     #[test]
