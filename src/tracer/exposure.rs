@@ -91,6 +91,38 @@ pub struct Sum {
     outlook: Outlook,
 }
 
+/// All samples of a pixel, but for how much of the sky they see.
+#[derive(Clone, Copy, Debug)]
+pub struct Exposed {
+    count: u32,
+    light: DVec3,
+    cover: f64,
+    outlook: Outlook,
+    /// Why there are so many of them.
+    plan: Plan,
+}
+
+impl Exposed {
+    fn new(sum: &Sum, plan: Plan) -> Exposed {
+        let Sum { count, light, cover, outlook, .. } = *sum;
+        Exposed { count, light, cover, outlook, plan }
+    }
+}
+
+/// What is done about a pixel after its first look. It depends on first looks at the pixels beside it, but not
+/// on all that they saw.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Plan {
+    /// What its samples need not ask.
+    known: Known,
+    /// Whether one beside it looks otherwise.
+    differs: bool,
+    /// Whether it gets more samples.
+    goes_on: bool,
+    /// Of an open sky's light what its own first look found.
+    sky: Vec3,
+}
+
 /// How bright light looks, 0 to 1: a square root is near enough.
 fn shown(light: DVec3) -> f64 {
     light.dot(DVec3::splat(1.0 / 3.0)).clamp(0.0, 1.0).sqrt()
@@ -119,21 +151,26 @@ impl Sizes {
         f64::from(self.first).sqrt().min(4.0)
     }
 
-    /// Whether a pixel needs more samples. `around` are the first looks at it and at the pixels beside it: where
-    /// they spread, its own few may be alike by chance.
-    ///
+    /// Whether a pixel that had its first look needs more samples. `around` are the first looks at it and at the
+    /// pixels beside it: where they spread, its own few may be alike by chance.
+    fn goes_on(&self, sum: &Sum, around: &Sum, differs: bool) -> bool {
+        let least = around.deviation() / f64::from(self.few).sqrt();
+        self.is_short(sum, least.max(sum.error()), differs)
+    }
+
+    /// Whether it needs more than it has.
+    fn wants_more(&self, sum: &Sum, differs: bool) -> bool {
+        self.is_short(sum, sum.error(), differs)
+    }
+
     /// An error may be the greater the more samples it took. So each sample goes where it brings most, since
     /// halving an error takes four times as many.
-    fn wants_more(&self, sum: &Sum, around: &Sum, differs: bool) -> bool {
+    fn is_short(&self, sum: &Sum, error: f64, differs: bool) -> bool {
         if sum.count >= self.most {
             return false;
         }
         if differs && sum.count < self.first {
             return true;
-        }
-        let mut error = sum.error();
-        if sum.count == self.few {
-            error = error.max(around.deviation() / f64::from(self.few).sqrt());
         }
         // What a lens blurs is made of few bright samples among many.
         let small = if self.has_lens { self.error / 2.0 } else { self.error };
@@ -148,12 +185,12 @@ impl<E: Eye<[Sample], Glimpse>> Exposure<E> {
     }
 
     /// Adds samples to some of the pixels, up to the number that each of them `wanted`, and what they
-    /// depend on.
+    /// depend on. First samples ask everything, others what their `plans` do not know.
     fn add(
         &self,
         spots: &[Spot],
         some: &[usize],
-        known: &[Known],
+        plans: &[Plan],
         wanted: impl Fn(&Sum) -> u32,
         sums: &mut [Sum],
         ties: Option<&mut [Ties]>,
@@ -162,7 +199,7 @@ impl<E: Eye<[Sample], Glimpse>> Exposure<E> {
         let mut samples = Vec::new();
         for pixel in some {
             let (spot, sum) = (spots[*pixel], &sums[*pixel]);
-            let known = known.get(*pixel).copied().unwrap_or_default();
+            let known = plans.get(*pixel).map_or(Known::default(), |plan| plan.known);
             for index in sum.count..wanted(sum) {
                 samples.push(Sample { spot, index, is_centered, known });
             }
@@ -176,8 +213,9 @@ impl<E: Eye<[Sample], Glimpse>> Exposure<E> {
             let range = next..next + (wanted(sum) - sum.count) as usize;
             next = range.end;
             let seen = &seen[range.clone()];
-            // First looks at a pixel see the same sky, which their error leaves out.
-            let sky = if sum.count == 0 { share_of_sky(seen) } else { None };
+            // Errors are as of what is seen under the sky that the pixel's own first look saw: all its samples, and
+            // those of the pixels beside it, will see the same.
+            let sky = plans.get(*pixel).map_or_else(|| share_of_sky(seen), |plan| Some(plan.sky));
             seen.iter().for_each(|glimpse| sum.add(glimpse, sky, self.behind));
             if let (Some(ties), Some(each)) = (&mut ties, &each) {
                 ties[*pixel].add(&each[range].iter().collect());
@@ -186,14 +224,30 @@ impl<E: Eye<[Sample], Glimpse>> Exposure<E> {
         counts
     }
 
+    /// What first looks at a pixel and at those beside it tell.
+    fn plan(&self, spot: Spot, looks: &Plane<Sum>) -> Plan {
+        let own = looks.at(spot);
+        let (shown, mut differs, mut around) = (own.shown(), false, Sum::default());
+        for there in looks.round(spot) {
+            differs |= (there.shown() - shown).abs() > CONTRAST;
+            around.merge(&there);
+        }
+        Plan {
+            known: around.outlook.known(),
+            differs,
+            goes_on: self.sizes.goes_on(&own, &around, differs),
+            sky: own.outlook.share_of_sky().unwrap_or(Vec3::ONE),
+        }
+    }
+
     /// What the samples show: their light through the tone curve, over the background.
-    fn developed(&self, sum: &Sum, share_of_sky: Option<Vec3>) -> Pixel {
-        let light = sum.outlook.under(sum.light, share_of_sky);
-        let cover = sum.cover / f64::from(sum.count);
+    fn developed(&self, all: &Exposed, share_of_sky: Option<Vec3>) -> Pixel {
+        let light = all.outlook.under(all.light, share_of_sky);
+        let cover = all.cover / f64::from(all.count);
         let color = if cover == 0.0 {
             Rgb::ZERO
         } else {
-            tone::stored(tone::neutral(light / sum.cover)) * cover
+            tone::stored(tone::neutral(light / all.cover)) * cover
         };
         match self.background {
             Some(background) => {
@@ -207,11 +261,13 @@ impl<E: Eye<[Sample], Glimpse>> Exposure<E> {
 
 impl<E: Eye<[Sample], Glimpse>> Painter for Exposure<E> {
     type Look = Sum;
+    type Work = Exposed;
 
-    fn nothing(&self) -> (Sum, Stored) {
+    fn nothing(&self) -> (Sum, Exposed, Stored) {
         let mut nothing = Sum::default();
         (0..self.sizes.few).for_each(|_| nothing.add(&Glimpse::default(), None, self.behind));
-        (nothing, self.developed(&nothing, None).stored())
+        let exposed = Exposed::new(&nothing, Plan::default());
+        (nothing, exposed, self.developed(&exposed, None).stored())
     }
 
     fn looks_first(&self) -> bool {
@@ -229,48 +285,42 @@ impl<E: Eye<[Sample], Glimpse>> Painter for Exposure<E> {
     }
 
     /// Adds samples to pixels until their errors are small enough.
-    fn finish(
+    fn work(
         &self,
         spots: &[Spot],
         looks: &Plane<Sum>,
-        made: &mut Vec<Stored>,
+        made: &mut Vec<Exposed>,
         ties: Option<&mut Vec<Ties>>,
     ) -> RayCounts {
         let mut sums: Vec<Sum> = spots.iter().map(|spot| looks.at(*spot)).collect();
         let mut each = ties.as_ref().map(|_| vec![Ties::default(); spots.len()]);
         let mut counts = RayCounts::default();
-        let differs = |index: usize| {
-            let shown = sums[index].shown();
-            looks.round(spots[index]).any(|there| (there.shown() - shown).abs() > CONTRAST)
-        };
-        let differs: Vec<bool> = (0..spots.len()).map(differs).collect();
-        let around = |spot: &Spot| {
-            let mut around = Sum::default();
-            looks.round(*spot).for_each(|there| around.merge(&there));
-            around
-        };
-        let around: Vec<Sum> = spots.iter().map(around).collect();
-        let known: Vec<Known> = around.iter().map(|around| around.outlook.known()).collect();
-        loop {
-            let wants = |index: &usize| {
-                self.sizes.wants_more(&sums[*index], &around[*index], differs[*index])
-            };
-            let mut some: Vec<usize> = (0..spots.len()).filter(wants).collect();
-            if some.is_empty() {
-                break;
-            }
-            // Those that ask the same make full packets.
-            some.sort_by_key(|index| known[*index].answered());
+        let plans: Vec<Plan> = spots.iter().map(|spot| self.plan(*spot, looks)).collect();
+        let mut some: Vec<usize> = (0..spots.len()).filter(|index| plans[*index].goes_on).collect();
+        // Those that ask the same make full packets.
+        some.sort_by_key(|index| plans[*index].known.answered());
+        while !some.is_empty() {
             let wanted = |sum: &Sum| (2 * sum.count).min(self.sizes.most);
             counts =
-                counts + self.add(spots, &some, &known, wanted, &mut sums, each.as_deref_mut());
+                counts + self.add(spots, &some, &plans, wanted, &mut sums, each.as_deref_mut());
+            some.retain(|index| self.sizes.wants_more(&sums[*index], plans[*index].differs));
         }
-        let developed = |(sum, known): (&Sum, &Known)| self.developed(sum, known.sky).stored();
-        made.extend(sums.iter().zip(&known).map(developed));
+        made.extend(sums.iter().zip(plans).map(|(sum, plan)| Exposed::new(sum, plan)));
         if let (Some(ties), Some(each)) = (ties, each) {
             ties.extend(each);
         }
         counts
+    }
+
+    fn is_done(&self, spot: Spot, looks: &Plane<Sum>, work: &Exposed) -> bool {
+        self.plan(spot, looks) == work.plan
+    }
+
+    /// The sky's share is that of all first looks round the pixel together.
+    fn finish(&self, spot: Spot, looks: &Plane<Sum>, work: &Exposed) -> Stored {
+        let mut around = Outlook::default();
+        looks.round(spot).for_each(|there| around.add(&there.outlook));
+        self.developed(work, around.share_of_sky()).stored()
     }
 
     fn rays(&self) -> u64 {

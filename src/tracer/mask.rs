@@ -1,5 +1,7 @@
 //! Some of a picture's pixels.
 
+use rayon::prelude::*;
+
 use super::plane::{Plane, Spot};
 
 /// A tile's width and height in pixels.
@@ -9,7 +11,7 @@ pub const TILE: u32 = 8;
 const BLOCK: [u32; 2] = [4, 2];
 
 /// A set of pixels, by tiles.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct Mask {
     width: u32,
     height: u32,
@@ -48,6 +50,26 @@ impl Mask {
     pub fn add(&mut self, [x, y]: Spot) {
         let tile = (y / TILE * self.columns + x / TILE) as usize;
         self.tiles[tile] |= 1 << (y % TILE * TILE + x % TILE);
+    }
+
+    pub fn has(&self, [x, y]: Spot) -> bool {
+        let tile = (y / TILE * self.columns + x / TILE) as usize;
+        self.tiles[tile] >> (y % TILE * TILE + x % TILE) & 1 == 1
+    }
+
+    /// Leaves out what is not to be kept.
+    pub fn retain(&mut self, keeps: impl Fn(Spot) -> bool + Sync) {
+        let columns = self.columns;
+        let tiles = self.tiles.par_iter_mut().enumerate().with_min_len(64);
+        tiles.filter(|(_, tile)| **tile != 0).for_each(|(index, tile)| {
+            let (column, row) = (index as u32 % columns, index as u32 / columns);
+            for bit in 0..TILE * TILE {
+                let spot = [column * TILE + bit % TILE, row * TILE + bit / TILE];
+                if *tile >> bit & 1 == 1 && !keeps(spot) {
+                    *tile &= !(1 << bit);
+                }
+            }
+        });
     }
 
     /// Adds all pixels of another set of the same picture.
@@ -135,6 +157,7 @@ mod tests {
         assert!(mask.is_empty());
         all().filter(wanted).for_each(|spot| mask.add(spot));
         assert!(!mask.is_empty());
+        assert!(all().all(|spot| mask.has(spot) == wanted(&spot)));
         let found: Vec<Spot> = mask.spots().collect();
         assert_eq!(found.len(), all().filter(wanted).count());
         assert_eq!(BTreeSet::from_iter(found), all().filter(wanted).collect());
@@ -148,6 +171,15 @@ mod tests {
         let beside = |[x, y]: &Spot| (*x < 2 && *y < 2) || (x.abs_diff(4) < 2 && y.abs_diff(8) < 2);
         assert_eq!(BTreeSet::from_iter(mask.grown().spots()), all().filter(beside).collect());
         assert_eq!(mask.grown().tiles().collect::<Vec<_>>(), [0, 2]);
+    }
+
+    #[test]
+    fn what_is_not_retained_is_left_out() {
+        let mut mask = Mask::full(SIZE);
+        let is_kept = |[x, y]: Spot| x % 3 == 0 || y == 20;
+        mask.retain(is_kept);
+        assert!(all().all(|spot| mask.has(spot) == is_kept(spot)));
+        assert_eq!(mask.count(), all().filter(|spot| is_kept(*spot)).count() as u64);
     }
 
     #[test]

@@ -6,7 +6,7 @@
 
 use glam::{DVec3, Vec3};
 
-use crate::lanes::{self, F32x8, Mask8, Simd, U32x8, Vec3x8};
+use crate::lanes::{self, Mask8, Simd, U32x8, Vec3x8};
 
 /// The bit of what a mirror sees; softboxes have those below it by their numbers. More softboxes than there
 /// are bits are always asked.
@@ -57,25 +57,25 @@ impl Outlook {
         Known {
             free: self.free & !self.hidden,
             hidden: self.hidden & !self.free,
-            sky: self.share_of_sky(),
+            sky: self.share_of_sky().is_some(),
         }
     }
 }
 
 /// What a sample need not ask.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Known {
     /// Rays that nothing stands in the way of, and those that something does, a bit each.
     pub free: u32,
     pub hidden: u32,
-    /// Of the light of an open sky what there really is, by channel.
-    pub sky: Option<Vec3>,
+    /// How much there is of the light of an open sky. Samples then have none of it in them.
+    pub sky: bool,
 }
 
 impl Known {
     /// Which rays need not be asked for, and whether the sky is among them.
     pub fn answered(&self) -> (bool, u32) {
-        (self.sky.is_some(), self.free | self.hidden)
+        (self.sky, self.free | self.hidden)
     }
 }
 
@@ -84,7 +84,6 @@ pub struct Outlooks<S: Simd> {
     /// See [`Known`].
     known: [U32x8<S>; 2],
     pub knows_sky: Mask8<S>,
-    pub share_of_sky: Vec3x8<S>,
     /// See [`Outlook`].
     free: U32x8<S>,
     hidden: U32x8<S>,
@@ -95,21 +94,15 @@ pub struct Outlooks<S: Simd> {
 impl<S: Simd> Outlooks<S> {
     #[inline(always)]
     pub fn new(known: &[Known; 8]) -> Outlooks<S> {
-        let (mut free, mut hidden, mut sky) = ([0; 8], [0; 8], [[0.0; 8]; 3]);
-        let mut knows_sky = 0;
+        let (mut free, mut hidden, mut knows_sky) = ([0; 8], [0; 8], 0);
         for (lane, known) in known.iter().enumerate() {
             (free[lane], hidden[lane]) = (known.free, known.hidden);
-            if let Some(share) = known.sky {
-                knows_sky |= 1 << lane;
-                (sky[0][lane], sky[1][lane], sky[2][lane]) = (share.x, share.y, share.z);
-            }
+            knows_sky |= u8::from(known.sky) << lane;
         }
         let zero = U32x8::splat(0);
-        let [x, y, z] = &sky;
         Outlooks {
             known: [U32x8::load(&free), U32x8::load(&hidden)],
             knows_sky: Mask8::from_bits(knows_sky),
-            share_of_sky: Vec3x8::new(F32x8::load(x), F32x8::load(y), F32x8::load(z)),
             free: zero,
             hidden: zero,
             sky: Vec3x8::zero(),
@@ -125,11 +118,11 @@ impl<S: Simd> Outlooks<S> {
         [((free >> bit) & one).eq(one), ((hidden >> bit) & one).eq(one)]
     }
 
-    /// Takes of the sky's light only that `share`, which the pixel shows.
+    /// Takes of the sky's light in some lanes only that `share`, which the pixel shows.
     #[inline(always)]
-    pub fn weigh(&mut self, share: Vec3x8<S>) {
-        self.sky = self.sky.times(share);
-        self.open_sky = self.open_sky.times(share);
+    pub fn weigh(&mut self, lanes: Mask8<S>, share: Vec3x8<S>) {
+        self.sky = Vec3x8::select(lanes, self.sky.times(share), self.sky);
+        self.open_sky = Vec3x8::select(lanes, self.open_sky.times(share), self.open_sky);
     }
 
     /// Notes for rays of a kind where nothing stood in the way, and where something did.
@@ -187,8 +180,8 @@ mod tests {
         outlook.add(&seen(0b0001, 0b1010));
         let known = outlook.known();
         assert_eq!((known.free, known.hidden), (0b0001, 0b1000));
-        assert_eq!(known.sky, Some(Vec3::new(0.2, 0.4, 0.6) / 0.8));
-        assert_eq!(Outlook::default().known().sky, None);
+        assert_eq!(outlook.share_of_sky(), Some(Vec3::new(0.2, 0.4, 0.6) / 0.8));
+        assert_eq!([known.sky, Outlook::default().known().sky], [true, false]);
     }
 
     #[test]

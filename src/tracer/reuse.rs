@@ -9,7 +9,7 @@
 use image::DynamicImage;
 
 use super::cast::{Cast, Stand, change};
-use super::exposure::{Exposure, Sizes, Sum};
+use super::exposure::{Exposed, Exposure, Sizes, Sum};
 use super::mask::Mask;
 use super::oracle;
 use super::phong::{Phong, Seen};
@@ -53,20 +53,24 @@ struct Last {
 
 /// What stood in the last picture.
 enum Kept {
-    Phong(Sketch<Seen>),
-    Studio(Sketch<Sum>),
+    Phong(Sketch<Seen, Stored>),
+    Studio(Sketch<Sum, Exposed>),
 }
 
 /// What painters keep of a pixel.
 trait Look: Copy + Send + Sync {
-    fn kept(sketch: Sketch<Self>) -> Kept;
-    fn sketch(kept: &mut Kept) -> Option<&mut Sketch<Self>>;
+    type Work: Copy + Send + Sync;
+    fn kept(sketch: Sketch<Self, Self::Work>) -> Kept;
+    fn sketch(kept: &mut Kept) -> Option<&mut Sketch<Self, Self::Work>>;
 }
 
 /// What is to be done by the painter of a scene.
 trait Work {
     type Done;
-    fn with<L: Look>(self, painter: &impl Painter<Look = L>) -> (Self::Done, RayCounts);
+    fn with<L: Look>(
+        self,
+        painter: &impl Painter<Look = L, Work = L::Work>,
+    ) -> (Self::Done, RayCounts);
 }
 
 impl Tracer {
@@ -206,27 +210,31 @@ impl Kept {
         }
     }
 
-    fn sketch<L: Look>(&mut self) -> &mut Sketch<L> {
+    fn sketch<L: Look>(&mut self) -> &mut Sketch<L, L::Work> {
         L::sketch(self).expect("a scene with a room is never taken for one without")
     }
 }
 
 impl Look for Seen {
-    fn kept(sketch: Sketch<Seen>) -> Kept {
+    type Work = Stored;
+
+    fn kept(sketch: Sketch<Seen, Stored>) -> Kept {
         Kept::Phong(sketch)
     }
 
-    fn sketch(kept: &mut Kept) -> Option<&mut Sketch<Seen>> {
+    fn sketch(kept: &mut Kept) -> Option<&mut Sketch<Seen, Stored>> {
         if let Kept::Phong(sketch) = kept { Some(sketch) } else { None }
     }
 }
 
 impl Look for Sum {
-    fn kept(sketch: Sketch<Sum>) -> Kept {
+    type Work = Exposed;
+
+    fn kept(sketch: Sketch<Sum, Exposed>) -> Kept {
         Kept::Studio(sketch)
     }
 
-    fn sketch(kept: &mut Kept) -> Option<&mut Sketch<Sum>> {
+    fn sketch(kept: &mut Kept) -> Option<&mut Sketch<Sum, Exposed>> {
         if let Kept::Studio(sketch) = kept { Some(sketch) } else { None }
     }
 }
@@ -241,7 +249,7 @@ struct Whole {
 impl Work for Whole {
     type Done = Kept;
 
-    fn with<L: Look>(self, painter: &impl Painter<Look = L>) -> (Kept, RayCounts) {
+    fn with<L: Look>(self, painter: &impl Painter<Look = L, Work = L::Work>) -> (Kept, RayCounts) {
         let (sketch, counts) = Sketch::new(painter, &self.some, self.size, self.keeps);
         (L::kept(sketch), counts)
     }
@@ -252,7 +260,7 @@ struct Repaint<'a>(&'a mut Kept, &'a Ties);
 impl Work for Repaint<'_> {
     type Done = Mask;
 
-    fn with<L: Look>(self, painter: &impl Painter<Look = L>) -> (Mask, RayCounts) {
+    fn with<L: Look>(self, painter: &impl Painter<Look = L, Work = L::Work>) -> (Mask, RayCounts) {
         self.0.sketch().repaint(painter, self.1)
     }
 }
@@ -262,7 +270,10 @@ struct Overpaint<'a>(&'a mut Kept, &'a Ties);
 impl Work for Overpaint<'_> {
     type Done = Overlay;
 
-    fn with<L: Look>(self, painter: &impl Painter<Look = L>) -> (Overlay, RayCounts) {
+    fn with<L: Look>(
+        self,
+        painter: &impl Painter<Look = L, Work = L::Work>,
+    ) -> (Overlay, RayCounts) {
         self.0.sketch().overpaint(painter, self.1)
     }
 }

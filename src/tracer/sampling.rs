@@ -73,9 +73,11 @@ impl<E: Eye<Places, Seen> + Eye<Places, Shade>> Sampling<E> {
 
 impl<E: Eye<Places, Seen> + Eye<Places, Shade>> Painter for Sampling<E> {
     type Look = Seen;
+    type Work = Stored;
 
-    fn nothing(&self) -> (Seen, Stored) {
-        (self.nothing, self.pixel(&self.nothing.shade).stored())
+    fn nothing(&self) -> (Seen, Stored, Stored) {
+        let stored = self.pixel(&self.nothing.shade).stored();
+        (self.nothing, stored, stored)
     }
 
     fn looks_first(&self) -> bool {
@@ -91,7 +93,7 @@ impl<E: Eye<Places, Seen> + Eye<Places, Shade>> Painter for Sampling<E> {
         self.eye.see(&Places::new(spots, 1), made, ties)
     }
 
-    fn finish(
+    fn work(
         &self,
         spots: &[Spot],
         looks: &Plane<Seen>,
@@ -123,6 +125,14 @@ impl<E: Eye<Places, Seen> + Eye<Places, Shade>> Painter for Sampling<E> {
             ties.extend(more.iter().map(next).map(Option::unwrap_or_default));
         }
         counts
+    }
+
+    fn is_done(&self, _: Spot, _: &Plane<Seen>, _: &Stored) -> bool {
+        false
+    }
+
+    fn finish(&self, _: Spot, _: &Plane<Seen>, work: &Stored) -> Stored {
+        *work
     }
 
     fn rays(&self) -> u64 {

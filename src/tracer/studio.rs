@@ -193,13 +193,11 @@ impl<'a> Studio<'a> {
         }
         let (light, cover, hit) = (light.rows(), cover.store(), hit.bits());
         let outlooks = draw.outlooks.rows();
-        for lane in 0..samples.len() {
-            let mut glimpse = Glimpse::default();
-            if hit >> lane & 1 == 1 {
-                glimpse = Glimpse::new(light.lane(lane), cover[lane], outlooks.lane(lane));
-            }
-            seen.push(glimpse);
-        }
+        let glimpse = |lane: usize| match hit >> lane & 1 {
+            0 => Glimpse::default(),
+            _ => Glimpse::new(light.lane(lane), cover[lane], outlooks.lane(lane)),
+        };
+        seen.extend((0..samples.len()).map(glimpse));
         draw.tell(samples.len(), ties);
         draw.counts
     }
@@ -260,9 +258,6 @@ impl<'a> Studio<'a> {
                 let mut sum = Vec3x8::zero();
                 if clear.any() {
                     sum = self.glass(&Flight { lanes: clear, ..*flight }, &meet, draw);
-                    if flight.depth == 0 {
-                        draw.outlooks.weigh(Vec3x8::zero());
-                    }
                 }
                 let opaque = lanes.but(clear);
                 if !opaque.any() {
@@ -278,7 +273,7 @@ impl<'a> Studio<'a> {
                 }
                 if flight.depth == 0 {
                     let shown = meet.color * dull.keep(F32x8::splat(GROUND as f32));
-                    draw.outlooks.weigh(shown);
+                    draw.outlooks.weigh(opaque, shown);
                 }
                 let coat = materials.coat(meet.material);
                 let coated = dull & coat.gt(one);
@@ -294,7 +289,7 @@ impl<'a> Studio<'a> {
                 let shares = Vec3x8::select(metal, tinted, Vec3x8::grey(share));
                 let above = self.mirror(&Flight { lanes: glossy, ..*flight }, &meet, shares, draw);
                 if flight.depth == 0 {
-                    draw.outlooks.weigh(Vec3x8::grey(one - share));
+                    draw.outlooks.weigh(opaque, Vec3x8::grey(one - share));
                 }
                 let opaque = ground * (one - share) + above;
                 Vec3x8::select(clear, sum, opaque)
@@ -372,16 +367,14 @@ impl<'a> Studio<'a> {
         let bounce = F32x8::splat(self.lights.bounce);
         let ground = Vec3x8::grey(F32x8::splat(FAR_GROUND as f32) * bounce);
         let open = brightness * share + ground * (one - share);
-        let known = flight.lanes & draw.outlooks.knows_sky;
-        let mut sky = Vec3x8::select(known, open.times(draw.outlooks.share_of_sky), Vec3x8::zero());
-        let unknown = flight.lanes.but(known);
-        if unknown.any() {
-            let asked =
-                self.asked_sky(&Flight { lanes: unknown, ..*flight }, meet, brightness, draw);
-            sky = Vec3x8::select(unknown, asked, sky);
+        let asking = flight.lanes.but(draw.outlooks.knows_sky);
+        let mut sky = Vec3x8::zero();
+        if asking.any() {
+            sky = self.asked_sky(&Flight { lanes: asking, ..*flight }, meet, brightness, draw);
         }
-        draw.outlooks.sky = sky;
-        draw.outlooks.open_sky = Vec3x8::select(flight.lanes, open, Vec3x8::zero());
+        let outlooks = &mut draw.outlooks;
+        outlooks.sky = Vec3x8::select(flight.lanes, sky, outlooks.sky);
+        outlooks.open_sky = Vec3x8::select(flight.lanes, open, outlooks.open_sky);
         sky
     }
 
@@ -557,8 +550,9 @@ impl<'a> Studio<'a> {
                 let clouded = through & clearness.lt(one);
                 if flight.depth == 0 && clouded.any() {
                     let gathered = self.gathered(&Flight { lanes: clouded, ..*flight }, meet, draw);
-                    let more = meet.color.times(gathered) * (one - clearness);
-                    sum += Vec3x8::select(clouded, more, Vec3x8::zero());
+                    let shown = meet.color * (one - clearness);
+                    draw.outlooks.weigh(clouded, shown);
+                    sum += Vec3x8::select(clouded, shown.times(gathered), Vec3x8::zero());
                 }
                 sum
             },

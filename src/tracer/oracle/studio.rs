@@ -122,11 +122,7 @@ impl<'a> Studio<'a> {
         };
         let cosine = -ray.direction.dot(normal);
         if material.finish.transparency > 0.0 {
-            let light = self.glass(flight, &meeting, hit.t, draw);
-            if flight.depth == 0 {
-                draw.outlook.weigh(Vec3::ZERO);
-            }
-            return light;
+            return self.glass(flight, &meeting, hit.t, draw);
         }
         let coat = &material.coat;
         if coat.metal {
@@ -196,10 +192,8 @@ impl<'a> Studio<'a> {
         }
         let ground = Rgb::splat(FAR_GROUND) * self.room.bounce;
         let open = sky.brightness * sky.share + ground * (1.0 - sky.share);
-        let light = match draw.known.sky {
-            Some(share) => open * share.as_dvec3(),
-            None => self.asked_sky(meeting, sky.brightness, draw),
-        };
+        let light =
+            if draw.known.sky { Rgb::ZERO } else { self.asked_sky(meeting, sky.brightness, draw) };
         (draw.outlook.sky, draw.outlook.open_sky) = (light.as_vec3(), open.as_vec3());
         light
     }
@@ -309,7 +303,9 @@ impl<'a> Studio<'a> {
         }
         let clouded = 1.0 - finish.transparency;
         if clouded > 0.0 && flight.depth == 0 {
-            sum += meeting.color * clouded * self.gathered(flight, meeting, draw);
+            let shown = meeting.color * clouded;
+            sum += shown * self.gathered(flight, meeting, draw);
+            draw.outlook.weigh(shown.as_vec3());
         }
         sum
     }
