@@ -260,10 +260,11 @@ fn best_cut(bounds: &[Bounds], items: &mut [usize], depth: usize) -> (usize, usi
     }
     for axis in 0..3 {
         sort(bounds, items, axis);
+        let first = surfaces(bounds, items.iter());
+        let second = surfaces(bounds, items.iter().rev());
         for cut in 1..items.len() {
-            let (first, second) = items.split_at(cut);
-            let cost = surface(&whole(bounds, first)) * first.len() as f64
-                + surface(&whole(bounds, second)) * second.len() as f64;
+            let rest = items.len() - cut;
+            let cost = first[cut - 1] * cut as f64 + second[rest - 1] * rest as f64;
             if cost < best.0 {
                 best = (cost, axis, cut);
             }
@@ -279,6 +280,15 @@ fn sort(bounds: &[Bounds], items: &mut [usize], axis: usize) {
 
 fn whole(bounds: &[Bounds], items: &[usize]) -> Bounds {
     items.iter().fold(Bounds::EMPTY, |whole, item| whole.union(bounds[*item]))
+}
+
+/// The surfaces of the boxes round the first item, the first two, and so on.
+fn surfaces<'a>(bounds: &[Bounds], items: impl Iterator<Item = &'a usize>) -> Vec<f64> {
+    let grows = |whole: &mut Bounds, item: &usize| {
+        *whole = whole.union(bounds[*item]);
+        Some(surface(whole))
+    };
+    items.scan(Bounds::EMPTY, grows).collect()
 }
 
 fn surface(bounds: &Bounds) -> f64 {

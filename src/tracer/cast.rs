@@ -163,20 +163,19 @@ impl Known {
         let (count, goes) = (self.objects.len(), self.goes.clone());
         let mut picture = Vec::with_capacity(scene.objects.len());
         // No body may be there twice.
-        let mut is_whole = true;
+        let (mut seen, mut is_whole) = (vec![false; count], true);
         for object in &scene.objects {
             let known = self.objects.iter().position(|known| known.is_same(object));
             let index = known.unwrap_or(self.objects.len());
-            is_whole &= !picture.contains(&index);
             picture.push(index);
             if known.is_none() {
                 self.objects.push(object.clone());
                 self.goes.push(true);
+                seen.push(false);
             }
+            is_whole &= !std::mem::replace(&mut seen[index], true);
         }
-        for (index, goes) in self.goes.iter_mut().enumerate() {
-            *goes |= !picture.contains(&index);
-        }
+        self.goes.iter_mut().zip(&seen).for_each(|(goes, is_there)| *goes |= !is_there);
         let changing = || self.objects.iter().zip(&self.goes).filter(|(_, goes)| **goes);
         // What has no end is everywhere.
         let are_small = changing().all(|(object, _)| object.body.bounds().is_finite());

@@ -2,7 +2,8 @@
 //!
 //! Where all of them saw a softbox, or none of them did, the next sample would see no more. What stands in
 //! the way of the sky changes so slowly from pixel to pixel that all of them together know it better than
-//! the samples of one.
+//! the samples of one: also at the edges of bodies, where what they share out is what each sample would see under an
+//! open sky.
 
 use glam::{DVec3, Vec3};
 
