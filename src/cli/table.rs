@@ -28,11 +28,12 @@ pub fn games(measurements: &[GameMeasurement]) -> String {
         "\na game, seconds a frame               frames   whole*    reuse    times  frames/s\n",
     );
     for measurement in measurements {
-        let GameMeasurement { setting, frames, whole_seconds, reuse_seconds, .. } = measurement;
-        let (times, rate) = (whole_seconds / reuse_seconds, 1.0 / reuse_seconds);
+        let GameMeasurement { setting, frames, whole_seconds, reuse_seconds, times, .. } =
+            measurement;
+        let rate = 1.0 / reuse_seconds;
         lines += &format!(
             "{setting:37} {frames:6} {whole_seconds:8.4} {reuse_seconds:8.4} {times:8.1} {rate:9.1}\n",
         );
     }
-    lines + "* of every n-th frame, ten at most\n"
+    lines + "* of every n-th frame, ten at most; reuse begins with a whole frame, so few plies say less of it\n"
 }

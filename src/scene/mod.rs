@@ -106,7 +106,7 @@ pub struct Cells {
     pub origin: DVec2,
     /// The cells' width.
     pub side: f64,
-    /// How far what stands reaches from the middle of its cell at most; less than half of `side`.
+    /// How far what stands reaches from the middle of its cell at most, up to half of `side`.
     pub reach: f64,
     /// From how low to how high.
     pub heights: [f64; 2],

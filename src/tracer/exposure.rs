@@ -232,8 +232,11 @@ impl<E: Eye<[Sample], Glimpse>> Exposure<E> {
             differs |= (there.shown() - shown).abs() > CONTRAST;
             around.merge(&there);
         }
+        // Many samples of its own know an edge better.
+        let mut known = around.outlook.known();
+        known.sky &= !differs || self.sizes.few <= FEWEST;
         Plan {
-            known: around.outlook.known(),
+            known,
             differs,
             goes_on: self.sizes.goes_on(&own, &around, differs),
             sky: own.outlook.share_of_sky().unwrap_or(Vec3::ONE),
@@ -316,10 +319,12 @@ impl<E: Eye<[Sample], Glimpse>> Painter for Exposure<E> {
         self.plan(spot, looks) == work.plan
     }
 
-    /// The sky's share is that of all first looks round the pixel together.
+    /// The sky's share is that of all first looks round the pixel together, if its samples did not ask.
     fn finish(&self, spot: Spot, looks: &Plane<Sum>, work: &Exposed) -> Stored {
         let mut around = Outlook::default();
-        looks.round(spot).for_each(|there| around.add(&there.outlook));
+        if work.plan.known.sky {
+            looks.round(spot).for_each(|there| around.add(&there.outlook));
+        }
         self.developed(work, around.share_of_sky()).stored()
     }
 

@@ -21,6 +21,8 @@ pub struct GameMeasurement {
     pub whole_seconds: f64,
     /// Of a frame that reuses what stood still since the one before: the mean over all.
     pub reuse_seconds: f64,
+    /// How many times the first is as long as the second.
+    pub times: f64,
     pub threads: usize,
 }
 
@@ -118,6 +120,7 @@ fn film(
         frames: frames.len(),
         whole_seconds: whole,
         reuse_seconds: reuse,
+        times: whole / reuse,
         threads: pool.current_num_threads(),
     })
 }
