@@ -154,6 +154,16 @@ fn glass_and_lenses_and_grounds_change_nothing() {
     }
 }
 
+/// Pixels that begin with more samples than the fewest, or go on at edges.
+#[test]
+fn any_number_of_samples_changes_nothing() {
+    let scenes = show(Look::Studio, |_| {}).scenes(FIRST, LAST);
+    let adaptive = |rays| Antialiasing::Adaptive { rays, threshold: 0.02 };
+    for mode in [Antialiasing::None, adaptive(4), adaptive(8), adaptive(12)] {
+        assert_reuse("studio", &scenes, mode);
+    }
+}
+
 /// A frame with every third of the standing pieces in the air, and as far to the left, some of them beside the
 /// board.
 fn lifted(mut frame: Frame, height: f64) -> Frame {

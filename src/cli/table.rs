@@ -35,5 +35,6 @@ pub fn games(measurements: &[GameMeasurement]) -> String {
             "{setting:37} {frames:6} {whole_seconds:8.4} {reuse_seconds:8.4} {times:8.1} {rate:9.1}\n",
         );
     }
-    lines + "* of every n-th frame, ten at most; reuse begins with a whole frame, so few plies say less of it\n"
+    lines
+        + "* of every n-th frame, ten at most; reuse begins with a whole frame, so few plies say less of it\n"
 }

@@ -54,11 +54,11 @@ impl Bounds {
         Bounds::of(self.corners().map(|corner| transform.transform_point3(corner)))
     }
 
-    /// Round a ball that `place` has moved: of radius `radius` along the given axes of its own space.
+    /// Round a ball or a disk that `place` has moved: of radius `radius` along the given axes of its own space.
     pub fn round(middle: DVec3, radius: f64, axes: &[DVec3], place: &DAffine3) -> Bounds {
         // It reaches as far along each axis of the world as the length of all its own axes' shares of that.
-        let squares = axes.iter().map(|axis| place.transform_vector3(*axis));
-        let reach = squares.map(|axis| axis * axis).sum::<DVec3>().map(f64::sqrt) * radius;
+        let axes = axes.iter().map(|axis| place.transform_vector3(*axis));
+        let reach = axes.map(|axis| axis * axis).sum::<DVec3>().map(f64::sqrt) * radius;
         let middle = place.transform_point3(middle);
         Bounds { min: middle - reach, max: middle + reach }
     }

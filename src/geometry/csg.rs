@@ -105,7 +105,9 @@ impl Solid for Csg {
         match &self.node {
             Node::Leaf(solid) => solid.placed_bounds(place),
             Node::Pair(operation, pair) => {
-                operation.bounds(pair[0].placed_bounds(place), pair[1].placed_bounds(place))
+                let placed = pair.each_ref().map(|tree| tree.placed_bounds(place));
+                let [first, second] = placed;
+                operation.bounds(first, second).intersection(self.bounds.transformed(place))
             }
         }
     }

@@ -61,7 +61,8 @@ impl<S: Simd> Vec3x8<S> {
         std::array::from_fn(|lane| rows.lane(lane))
     }
 
-    /// The lanes one by one, where not all are copied at once: reading what was just written piece by piece waits.
+    /// The same for those who take the lanes one by one. (Vectors that were put together from single numbers are slow
+    /// to copy right afterwards: loads wait for smaller stores.)
     #[inline(always)]
     pub fn rows(self) -> Rows {
         Rows([self.x.store(), self.y.store(), self.z.store()])

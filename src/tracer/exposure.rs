@@ -119,8 +119,20 @@ struct Plan {
     differs: bool,
     /// Whether it gets more samples.
     goes_on: bool,
-    /// Of an open sky's light what its own first look found.
-    sky: Vec3,
+}
+
+/// What the later samples of a pixel go by.
+struct Guide {
+    known: Known,
+    /// Of an open sky's light what their errors are as of; nothing where each asks for itself.
+    sky: Option<Vec3>,
+}
+
+impl Guide {
+    fn new(own: &Sum, Plan { known, .. }: &Plan) -> Guide {
+        let share = || own.outlook.share_of_sky().unwrap_or(Vec3::ONE);
+        Guide { known: *known, sky: known.sky.then(share) }
+    }
 }
 
 /// How bright light looks, 0 to 1: a square root is near enough.
@@ -185,12 +197,12 @@ impl<E: Eye<[Sample], Glimpse>> Exposure<E> {
     }
 
     /// Adds samples to some of the pixels, up to the number that each of them `wanted`, and what they
-    /// depend on. First samples ask everything, others what their `plans` do not know.
+    /// depend on. First samples ask everything, others go by their `guides`.
     fn add(
         &self,
         spots: &[Spot],
         some: &[usize],
-        plans: &[Plan],
+        guides: &[Guide],
         wanted: impl Fn(&Sum) -> u32,
         sums: &mut [Sum],
         ties: Option<&mut [Ties]>,
@@ -199,7 +211,7 @@ impl<E: Eye<[Sample], Glimpse>> Exposure<E> {
         let mut samples = Vec::new();
         for pixel in some {
             let (spot, sum) = (spots[*pixel], &sums[*pixel]);
-            let known = plans.get(*pixel).map_or(Known::default(), |plan| plan.known);
+            let known = guides.get(*pixel).map_or(Known::default(), |guide| guide.known);
             for index in sum.count..wanted(sum) {
                 samples.push(Sample { spot, index, is_centered, known });
             }
@@ -213,9 +225,9 @@ impl<E: Eye<[Sample], Glimpse>> Exposure<E> {
             let range = next..next + (wanted(sum) - sum.count) as usize;
             next = range.end;
             let seen = &seen[range.clone()];
-            // Errors are as of what is seen under the sky that the pixel's own first look saw: all its samples, and
-            // those of the pixels beside it, will see the same.
-            let sky = plans.get(*pixel).map_or_else(|| share_of_sky(seen), |plan| Some(plan.sky));
+            // Errors are as of what is seen under one sky, since the pixel will show it under one: that of its own
+            // first look is near enough.
+            let sky = guides.get(*pixel).map_or_else(|| share_of_sky(seen), |guide| guide.sky);
             seen.iter().for_each(|glimpse| sum.add(glimpse, sky, self.behind));
             if let (Some(ties), Some(each)) = (&mut ties, &each) {
                 ties[*pixel].add(&each[range].iter().collect());
@@ -235,12 +247,7 @@ impl<E: Eye<[Sample], Glimpse>> Exposure<E> {
         // Many samples of its own know an edge better.
         let mut known = around.outlook.known();
         known.sky &= !differs || self.sizes.few <= FEWEST;
-        Plan {
-            known,
-            differs,
-            goes_on: self.sizes.goes_on(&own, &around, differs),
-            sky: own.outlook.share_of_sky().unwrap_or(Vec3::ONE),
-        }
+        Plan { known, differs, goes_on: self.sizes.goes_on(&own, &around, differs) }
     }
 
     /// What the samples show: their light through the tone curve, over the background.
@@ -299,13 +306,15 @@ impl<E: Eye<[Sample], Glimpse>> Painter for Exposure<E> {
         let mut each = ties.as_ref().map(|_| vec![Ties::default(); spots.len()]);
         let mut counts = RayCounts::default();
         let plans: Vec<Plan> = spots.iter().map(|spot| self.plan(*spot, looks)).collect();
+        let guides: Vec<Guide> =
+            sums.iter().zip(&plans).map(|(own, plan)| Guide::new(own, plan)).collect();
         let mut some: Vec<usize> = (0..spots.len()).filter(|index| plans[*index].goes_on).collect();
         // Those that ask the same make full packets.
         some.sort_by_key(|index| plans[*index].known.answered());
         while !some.is_empty() {
             let wanted = |sum: &Sum| (2 * sum.count).min(self.sizes.most);
             counts =
-                counts + self.add(spots, &some, &plans, wanted, &mut sums, each.as_deref_mut());
+                counts + self.add(spots, &some, &guides, wanted, &mut sums, each.as_deref_mut());
             some.retain(|index| self.sizes.wants_more(&sums[*index], plans[*index].differs));
         }
         made.extend(sums.iter().zip(plans).map(|(sum, plan)| Exposed::new(sum, plan)));

@@ -40,9 +40,11 @@ impl Outlook {
         self.open_sky *= share;
     }
 
-    /// Of the light of an open sky what there really is, by channel; `None` where nobody has asked.
+    /// Of the light of an open sky what there really is, by channel, all of it where a channel has none;
+    /// `None` where nobody has asked.
     pub fn share_of_sky(&self) -> Option<Vec3> {
-        (self.open_sky.min_element() > 0.0).then(|| self.sky / self.open_sky)
+        let is_any = self.open_sky.cmpgt(Vec3::ZERO);
+        is_any.any().then(|| Vec3::select(is_any, self.sky / self.open_sky, Vec3::ONE))
     }
 
     /// What becomes of `light` that has this light of the sky in it, where of that of an open sky there is such a

@@ -58,16 +58,16 @@ enum Kept {
 }
 
 /// What painters keep of a pixel.
-trait Look: Copy + Send + Sync {
+trait Keeps: Copy + Send + Sync {
     type Work: Copy + Send + Sync;
     fn kept(sketch: Sketch<Self, Self::Work>) -> Kept;
     fn sketch(kept: &mut Kept) -> Option<&mut Sketch<Self, Self::Work>>;
 }
 
 /// What is to be done by the painter of a scene.
-trait Work {
+trait Job {
     type Done;
-    fn with<L: Look>(
+    fn with<L: Keeps>(
         self,
         painter: &impl Painter<Look = L, Work = L::Work>,
     ) -> (Self::Done, RayCounts);
@@ -112,8 +112,8 @@ impl Tracer {
             Some((Last { cast, mut kept, mut picture, .. }, stand, changed)) => {
                 let mut counts = RayCounts::default();
                 if !changed.is_empty() {
-                    let work = Repaint(&mut kept, &changed);
-                    let (mask, rays) = self.paint(&stand.scene, Some(&cast), work);
+                    let job = Repaint(&mut kept, &changed);
+                    let (mask, rays) = self.paint(&stand.scene, Some(&cast), job);
                     let pixels = kept.picture();
                     pixel::set(&mut picture, mask.spots().map(|spot| (spot, pixels.at(spot))));
                     counts = rays;
@@ -150,22 +150,22 @@ impl Tracer {
     fn whole(&self, scene: &Scene, cast: Option<&Cast>) -> (Kept, RayCounts) {
         let others = cast.map_or(&[][..], Cast::members);
         let some = silhouette(&scene.camera, scene.objects.iter().chain(others), self.size);
-        let work = Whole { some, size: self.size, keeps: cast.is_some() };
-        self.paint(scene, cast, work)
+        let job = Whole { some, size: self.size, keeps: cast.is_some() };
+        self.paint(scene, cast, job)
     }
 
     /// Has something done by the painter of `scene`, who tells what depends on the members of `cast`.
-    fn paint<W: Work>(&self, scene: &Scene, cast: Option<&Cast>, work: W) -> (W::Done, RayCounts) {
+    fn paint<J: Job>(&self, scene: &Scene, cast: Option<&Cast>, job: J) -> (J::Done, RayCounts) {
         let world = World::new(scene, &self.shelf, cast);
         match &scene.room {
             None => {
                 let eye = Phong::new(world, self.size);
-                work.with(&Sampling::new(eye, scene, self.mode))
+                job.with(&Sampling::new(eye, scene, self.mode))
             }
             Some(room) => {
                 let sizes = Sizes::new(scene, self.mode);
                 let eye = Studio::new(world, room, self.size, sizes.across());
-                work.with(&Exposure::new(eye, scene, sizes))
+                job.with(&Exposure::new(eye, scene, sizes))
             }
         }
     }
@@ -190,13 +190,13 @@ pub fn render_by_oracle(
     mode: Antialiasing,
 ) -> (DynamicImage, RayCounts) {
     let size = [width, height];
-    let work = Whole { some: Mask::full(size), size, keeps: false };
+    let job = Whole { some: Mask::full(size), size, keeps: false };
     let (kept, counts) = match &scene.room {
-        None => work.with(&Sampling::new(oracle::Phong::new(scene, size), scene, mode)),
+        None => job.with(&Sampling::new(oracle::Phong::new(scene, size), scene, mode)),
         Some(room) => {
             let sizes = Sizes::new(scene, mode);
             let eye = oracle::Studio::new(scene, room, size, sizes.across());
-            work.with(&Exposure::new(eye, scene, sizes))
+            job.with(&Exposure::new(eye, scene, sizes))
         }
     };
     (pixel::picture(kept.picture(), scene.background.is_none()), counts)
@@ -210,12 +210,12 @@ impl Kept {
         }
     }
 
-    fn sketch<L: Look>(&mut self) -> &mut Sketch<L, L::Work> {
+    fn sketch<L: Keeps>(&mut self) -> &mut Sketch<L, L::Work> {
         L::sketch(self).expect("a scene with a room is never taken for one without")
     }
 }
 
-impl Look for Seen {
+impl Keeps for Seen {
     type Work = Stored;
 
     fn kept(sketch: Sketch<Seen, Stored>) -> Kept {
@@ -227,7 +227,7 @@ impl Look for Seen {
     }
 }
 
-impl Look for Sum {
+impl Keeps for Sum {
     type Work = Exposed;
 
     fn kept(sketch: Sketch<Sum, Exposed>) -> Kept {
@@ -246,10 +246,10 @@ struct Whole {
     keeps: bool,
 }
 
-impl Work for Whole {
+impl Job for Whole {
     type Done = Kept;
 
-    fn with<L: Look>(self, painter: &impl Painter<Look = L, Work = L::Work>) -> (Kept, RayCounts) {
+    fn with<L: Keeps>(self, painter: &impl Painter<Look = L, Work = L::Work>) -> (Kept, RayCounts) {
         let (sketch, counts) = Sketch::new(painter, &self.some, self.size, self.keeps);
         (L::kept(sketch), counts)
     }
@@ -257,20 +257,20 @@ impl Work for Whole {
 
 struct Repaint<'a>(&'a mut Kept, &'a Ties);
 
-impl Work for Repaint<'_> {
+impl Job for Repaint<'_> {
     type Done = Mask;
 
-    fn with<L: Look>(self, painter: &impl Painter<Look = L, Work = L::Work>) -> (Mask, RayCounts) {
+    fn with<L: Keeps>(self, painter: &impl Painter<Look = L, Work = L::Work>) -> (Mask, RayCounts) {
         self.0.sketch().repaint(painter, self.1)
     }
 }
 
 struct Overpaint<'a>(&'a mut Kept, &'a Ties);
 
-impl Work for Overpaint<'_> {
+impl Job for Overpaint<'_> {
     type Done = Overlay;
 
-    fn with<L: Look>(
+    fn with<L: Keeps>(
         self,
         painter: &impl Painter<Look = L, Work = L::Work>,
     ) -> (Overlay, RayCounts) {

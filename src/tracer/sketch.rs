@@ -13,7 +13,7 @@ pub trait Painter: Sync {
     type Look: Copy + Send + Sync;
     type Work: Copy + Send + Sync;
 
-    /// What is found where no body can be, and what the pixel then shows.
+    /// What is found where no body can be, the work on it, and what the pixel then shows.
     fn nothing(&self) -> (Self::Look, Self::Work, Stored);
 
     /// Whether there is a first look at all.
@@ -37,7 +37,8 @@ pub trait Painter: Sync {
         ties: Option<&mut Vec<Ties>>,
     ) -> RayCounts;
 
-    /// Whether work on a pixel is known to come to `work` still, after other first looks at the pixels round it.
+    /// Whether work on a pixel is known to come to `work` still, after other first looks at the pixels round it: its
+    /// own, and all that rays of the work can meet, are as they were.
     fn is_done(&self, spot: Spot, looks: &Plane<Self::Look>, work: &Self::Work) -> bool;
 
     /// What a pixel shows after that work.

@@ -1,8 +1,8 @@
 //! Soft light: a coloured ground under a clear coat, in a room with softboxes and a sky.
 //!
 //! Every sample of a pixel asks each softbox at one point, the sky in one direction, and the mirror in
-//! one. What nothing stands in the way of is known without samples, so a plain that sees the whole
-//! sky has no noise.
+//! one, but for what is known from others. What nothing stands in the way of is known without samples, so a plain that
+//! sees the whole sky has no noise.
 
 use std::f64::consts::TAU;
 
@@ -294,7 +294,7 @@ impl<'a> Studio<'a> {
             spread: flight.spread,
         };
         // Each of a body's two surfaces takes half of what its colour takes.
-        let tint = Rgb::from_array(meeting.color.to_array().map(f64::sqrt));
+        let tint = Rgb::from_array(meeting.color.max(Rgb::ZERO).to_array().map(f64::sqrt));
         if next.depth <= self.world.scene.max_depth && next.weight >= self.world.scene.min_weight {
             draw.counts.refracted += 1;
             sum += tint * self.radiance(&next, draw) * share;
