@@ -9,6 +9,7 @@
 //! there has no meaning (but is no panic).
 
 pub mod boxes;
+pub mod shaft;
 pub mod solids;
 pub mod surfaces;
 

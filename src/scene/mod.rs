@@ -36,7 +36,7 @@ pub use material::{Material, Rgb};
 pub use materials::MaterialError;
 pub use measures::{HALF, MIDDLE, SQUARE};
 pub use paint::{Painting, repainted};
-pub use room::{Daylight, Room, Softbox};
+pub use room::{Daylight, NARROW, Room, Softbox};
 pub use stage::{Stage, StageError};
 pub use surface::Surface;
 pub use texture::{Noise, Place, Texture, linear_light};

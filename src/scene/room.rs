@@ -35,6 +35,10 @@ pub struct Softbox {
     pub radiance: Rgb,
 }
 
+/// Softboxes whose distance's square is more than so many times the sum of the squares of half their sides are seen so
+/// small that [`Softbox::mean_cosine`] errs by less than a thousandth or so.
+pub const NARROW: f64 = 8.0;
+
 /// What the sky gives a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Daylight {
@@ -106,6 +110,29 @@ impl Softbox {
     /// The point of it at (`across`, `along`), each 0 to 1.
     pub fn point(&self, (across, along): (f64, f64)) -> DVec3 {
         self.center + self.half[0] * (2.0 * across - 1.0) + self.half[1] * (2.0 * along - 1.0)
+    }
+
+    /// The mean cosine, between `normal` and the ways from `point` to all points of it; `None` where not all of it is
+    /// above the horizon, by the normal or by that of the surface itself (`outward`), or where it is too near.
+    ///
+    /// The mean of v / |v| over v ± a ± b is, by Taylor's series up to the third order, v / |v| and a sixth of
+    /// its second derivatives along a and b.
+    pub fn mean_cosine(&self, point: DVec3, normal: DVec3, outward: DVec3) -> Option<f64> {
+        let way = self.center - point;
+        let spread = |normal: DVec3| self.half.map(|half| normal.dot(half).abs()).iter().sum();
+        let is_above = |normal: DVec3| normal.dot(way) > spread(normal);
+        let square = way.length_squared();
+        let size = self.half[0].length_squared() + self.half[1].length_squared();
+        if !is_above(normal) || !is_above(outward) || square <= NARROW * size {
+            return None;
+        }
+        let bent = |half: &DVec3| {
+            let along = half.dot(way);
+            let bend = 3.0 * along * along / square - half.length_squared();
+            (way * bend - *half * (2.0 * along)) / 6.0
+        };
+        let sum = self.half.iter().map(bent).fold(way * square, |sum, bent| sum + bent);
+        Some(normal.dot(sum) / (square * square.sqrt()))
     }
 
     /// How much of a mirror's view along `direction` it fills.
@@ -187,6 +214,33 @@ mod tests {
         let room = room();
         for (normal, share) in [(DVec3::Y, 1.0), (DVec3::X, 0.5), (DVec3::NEG_Y, 0.0)] {
             assert!((room.daylight(normal).share - share).abs() < 0.02, "{normal}");
+        }
+    }
+
+    #[test]
+    fn the_mean_cosine_is_that_of_many_points() {
+        let softbox = room().softboxes[0];
+        let turned = DVec3::new(0.6, 0.8, 0.0);
+        for (point, normal) in [
+            (DVec3::ZERO, DVec3::Y),
+            (MIDDLE, DVec3::Y),
+            (DVec3::new(40.0, 3.0, -20.0), DVec3::Y),
+            (DVec3::new(5.0, 20.0, 9.0), turned),
+        ] {
+            const STEPS: u32 = 200;
+            let place = |step: u32| (f64::from(step) + 0.5) / f64::from(STEPS);
+            let pairs = (0..STEPS).flat_map(|a| (0..STEPS).map(move |b| (place(a), place(b))));
+            let cosine = |pair| normal.dot((softbox.point(pair) - point).normalize());
+            let exact = pairs.map(cosine).sum::<f64>() / f64::from(STEPS * STEPS);
+            let found = softbox.mean_cosine(point, normal, normal).unwrap();
+            assert!((found / exact - 1.0).abs() < 1e-3, "{found} instead of {exact} at {point}");
+        }
+        for (point, normal, outward) in [
+            (MIDDLE, DVec3::NEG_Y, DVec3::Y),
+            (MIDDLE, DVec3::Y, DVec3::X),
+            (MIDDLE + DVec3::Y * 40.0, DVec3::Y, DVec3::Y),
+        ] {
+            assert_eq!(softbox.mean_cosine(point, normal, outward), None);
         }
     }
 

@@ -9,12 +9,14 @@ use crate::geometry::Bounds;
 use crate::lanes::{F32x8, Mask8, Simd, Vec3x8};
 use crate::packet::Rays;
 use crate::packet::boxes::{Hierarchy, Way};
+use crate::packet::shaft::{Crowd, Shaft};
 use crate::scene::Object;
 
 /// Members of a cast that are not there.
 pub struct Absent {
     bodies: Vec<(Members, Body)>,
     boxes: Hierarchy,
+    crowd: Crowd,
     pub are_transparent: bool,
 }
 
@@ -44,7 +46,14 @@ impl Absent {
         }
         let bounds: Vec<Bounds> = bodies.iter().map(|(_, body)| body.aabb.bounds()).collect();
         let are_transparent = bodies.iter().any(|(_, body)| body.is_transparent);
-        Absent { bodies, boxes: Hierarchy::new(&bounds, 0.0), are_transparent }
+        let crowd = Crowd::new(bodies.iter().map(|(_, body)| body.aabb));
+        Absent { bodies, boxes: Hierarchy::new(&bounds, 0.0), crowd, are_transparent }
+    }
+
+    /// Whether ways in a shaft may meet any.
+    #[inline(always)]
+    pub fn may_be_in<S: Simd>(&self, shaft: &Shaft) -> bool {
+        self.crowd.is_met::<S>(shaft)
     }
 
     /// Adds those that rays would meet, up to the distances `before`.

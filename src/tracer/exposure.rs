@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec3};
 
 use super::eye::Eye;
-use super::outlook::{Known, Outlook};
+use super::outlook::{BOXES, Known, Outlook, POOLS, SKY, Shares};
 use super::pixel::{Pixel, Stored};
 use super::plane::{Plane, Spot};
 use super::sketch::Painter;
@@ -83,12 +83,19 @@ pub struct Sum {
     count: u32,
     light: DVec3,
     cover: f64,
-    /// Of how bright samples look, and of its square.
-    shown: f64,
-    squares: f64,
+    /// How bright samples look as they are, and as of what is seen under one share of the softboxes' light.
+    noises: [Noise; 2],
     /// Of the square of what they cover.
     covers: f64,
     outlook: Outlook,
+}
+
+/// How much samples differ.
+#[derive(Clone, Copy, Debug, Default)]
+struct Noise {
+    /// Of how bright they look, and of its square.
+    shown: f64,
+    squares: f64,
 }
 
 /// All samples of a pixel, but for how much of the sky they see.
@@ -124,14 +131,17 @@ struct Plan {
 /// What the later samples of a pixel go by.
 struct Guide {
     known: Known,
-    /// Of an open sky's light what their errors are as of; nothing where each asks for itself.
-    sky: Option<Vec3>,
+    /// Of open light the shares that their errors are as of; nothing where each asks for itself.
+    shares: Shares,
 }
 
 impl Guide {
     fn new(own: &Sum, Plan { known, .. }: &Plan) -> Guide {
-        let share = || own.outlook.share_of_sky().unwrap_or(Vec3::ONE);
-        Guide { known: *known, sky: known.sky.then(share) }
+        let mut shares = own.outlook.shares();
+        for (share, is_known) in shares.iter_mut().zip(known.pooled) {
+            *share = is_known.then(|| share.unwrap_or(Vec3::ONE));
+        }
+        Guide { known: *known, shares }
     }
 }
 
@@ -165,14 +175,14 @@ impl Sizes {
 
     /// Whether a pixel that had its first look needs more samples. `around` are the first looks at it and at the
     /// pixels beside it: where they spread, its own few may be alike by chance.
-    fn goes_on(&self, sum: &Sum, around: &Sum, differs: bool) -> bool {
-        let least = around.deviation() / f64::from(self.few).sqrt();
-        self.is_short(sum, least.max(sum.error()), differs)
+    fn goes_on(&self, sum: &Sum, around: &Sum, Plan { known, differs, .. }: &Plan) -> bool {
+        let least = around.deviation(known) / f64::from(self.few).sqrt();
+        self.is_short(sum, least.max(sum.error(known)), *differs)
     }
 
     /// Whether it needs more than it has.
-    fn wants_more(&self, sum: &Sum, differs: bool) -> bool {
-        self.is_short(sum, sum.error(), differs)
+    fn wants_more(&self, sum: &Sum, Plan { known, differs, .. }: &Plan) -> bool {
+        self.is_short(sum, sum.error(known), *differs)
     }
 
     /// An error may be the greater the more samples it took. So each sample goes where it brings most, since
@@ -225,10 +235,10 @@ impl<E: Eye<[Sample], Glimpse>> Exposure<E> {
             let range = next..next + (wanted(sum) - sum.count) as usize;
             next = range.end;
             let seen = &seen[range.clone()];
-            // Errors are as of what is seen under one sky, since the pixel will show it under one: that of its own
-            // first look is near enough.
-            let sky = guides.get(*pixel).map_or_else(|| share_of_sky(seen), |guide| guide.sky);
-            seen.iter().for_each(|glimpse| sum.add(glimpse, sky, self.behind));
+            // Errors are as of what is seen under one share of open light, since the pixel will show it under one: that
+            // of its own first look is near enough.
+            let shares = guides.get(*pixel).map_or_else(|| shares(seen), |guide| guide.shares);
+            seen.iter().for_each(|glimpse| sum.add(glimpse, &shares, self.behind));
             if let (Some(ties), Some(each)) = (&mut ties, &each) {
                 ties[*pixel].add(&each[range].iter().collect());
             }
@@ -239,20 +249,33 @@ impl<E: Eye<[Sample], Glimpse>> Exposure<E> {
     /// What first looks at a pixel and at those beside it tell.
     fn plan(&self, spot: Spot, looks: &Plane<Sum>) -> Plan {
         let own = looks.at(spot);
-        let (shown, mut differs, mut around) = (own.shown(), false, Sum::default());
+        let (mut around, mut all_free, mut all_hidden) = (Sum::default(), 0, 0);
         for there in looks.round(spot) {
-            differs |= (there.shown() - shown).abs() > CONTRAST;
+            let known = there.outlook.known();
+            (all_free, all_hidden) = (all_free | known.free, all_hidden | known.hidden);
             around.merge(&there);
         }
-        // Many samples of its own know an edge better.
         let mut known = around.outlook.known();
-        known.sky &= !differs || self.sizes.few <= FEWEST;
-        Plan { known, differs, goes_on: self.sizes.goes_on(&own, &around, differs) }
+        // Where one pixel is lit and another is not there is an edge of a shadow, which would be blurred.
+        known.pooled[BOXES] &= all_free & all_hidden == 0 && self.sizes.few <= FEWEST;
+        let mut shares = around.outlook.shares();
+        shares.iter_mut().zip(known.pooled).for_each(|(share, is_known)| {
+            share.take_if(|_| !is_known);
+        });
+        let shown = own.shown(&shares, self.behind);
+        let differs = looks
+            .round(spot)
+            .any(|there| (there.shown(&shares, self.behind) - shown).abs() > CONTRAST);
+        // Many samples of its own know an edge better.
+        known.pooled[SKY] &= !differs || self.sizes.few <= FEWEST;
+        known.pooled[BOXES] &= !differs;
+        let plan = Plan { known, differs, goes_on: false };
+        Plan { goes_on: self.sizes.goes_on(&own, &around, &plan), ..plan }
     }
 
     /// What the samples show: their light through the tone curve, over the background.
-    fn developed(&self, all: &Exposed, share_of_sky: Option<Vec3>) -> Pixel {
-        let light = all.outlook.under(all.light, share_of_sky);
+    fn developed(&self, all: &Exposed, shares: &Shares) -> Pixel {
+        let light = all.outlook.under(all.light, shares);
         let cover = all.cover / f64::from(all.count);
         let color = if cover == 0.0 {
             Rgb::ZERO
@@ -275,9 +298,10 @@ impl<E: Eye<[Sample], Glimpse>> Painter for Exposure<E> {
 
     fn nothing(&self) -> (Sum, Exposed, Stored) {
         let mut nothing = Sum::default();
-        (0..self.sizes.few).for_each(|_| nothing.add(&Glimpse::default(), None, self.behind));
+        let none = [None; POOLS];
+        (0..self.sizes.few).for_each(|_| nothing.add(&Glimpse::default(), &none, self.behind));
         let exposed = Exposed::new(&nothing, Plan::default());
-        (nothing, exposed, self.developed(&exposed, None).stored())
+        (nothing, exposed, self.developed(&exposed, &none).stored())
     }
 
     fn looks_first(&self) -> bool {
@@ -315,7 +339,7 @@ impl<E: Eye<[Sample], Glimpse>> Painter for Exposure<E> {
             let wanted = |sum: &Sum| (2 * sum.count).min(self.sizes.most);
             counts =
                 counts + self.add(spots, &some, &guides, wanted, &mut sums, each.as_deref_mut());
-            some.retain(|index| self.sizes.wants_more(&sums[*index], plans[*index].differs));
+            some.retain(|index| self.sizes.wants_more(&sums[*index], &plans[*index]));
         }
         made.extend(sums.iter().zip(plans).map(|(sum, plan)| Exposed::new(sum, plan)));
         if let (Some(ties), Some(each)) = (ties, each) {
@@ -328,13 +352,17 @@ impl<E: Eye<[Sample], Glimpse>> Painter for Exposure<E> {
         self.plan(spot, looks) == work.plan
     }
 
-    /// The sky's share is that of all first looks round the pixel together, if its samples did not ask.
+    /// Shares that its samples did not ask for are those of all first looks round the pixel together.
     fn finish(&self, spot: Spot, looks: &Plane<Sum>, work: &Exposed) -> Stored {
-        let mut around = Outlook::default();
-        if work.plan.known.sky {
+        let (mut around, pooled) = (Outlook::default(), work.plan.known.pooled);
+        if pooled.contains(&true) {
             looks.round(spot).for_each(|there| around.add(&there.outlook));
         }
-        self.developed(work, around.share_of_sky()).stored()
+        let mut shares = around.shares();
+        shares.iter_mut().zip(pooled).for_each(|(share, is_known)| {
+            share.take_if(|_| !is_known);
+        });
+        self.developed(work, &shares).stored()
     }
 
     fn rays(&self) -> u64 {
@@ -342,17 +370,17 @@ impl<E: Eye<[Sample], Glimpse>> Painter for Exposure<E> {
     }
 }
 
-/// Of the light of an open sky what there is of it in all samples together, by channel.
-fn share_of_sky(seen: &[Glimpse]) -> Option<Vec3> {
+/// Of open light what there is of it in all samples together.
+fn shares(seen: &[Glimpse]) -> Shares {
     let mut outlook = Outlook::default();
     seen.iter().for_each(|glimpse| outlook.add(&glimpse.outlook));
-    outlook.share_of_sky()
+    outlook.shares()
 }
 
 impl Sum {
     /// Adds a sample, before a background that looks as bright as `behind`. Its error is as of what is seen
-    /// under a sky of that share.
-    fn add(&mut self, glimpse: &Glimpse, share_of_sky: Option<Vec3>, behind: Option<f64>) {
+    /// under such `shares` of open light.
+    fn add(&mut self, glimpse: &Glimpse, shares: &Shares, behind: Option<f64>) {
         let (light, cover) = (glimpse.light.as_dvec3(), f64::from(glimpse.cover));
         self.count += 1;
         self.light += light * cover;
@@ -360,18 +388,25 @@ impl Sum {
         let mut outlook = glimpse.outlook;
         outlook.weigh(Vec3::splat(glimpse.cover));
         self.outlook.add(&outlook);
-        let shown = shown(glimpse.outlook.under(light, share_of_sky)) * cover
-            + behind.unwrap_or(0.0) * (1.0 - cover);
-        self.shown += shown;
-        self.squares += shown * shown;
+        let ground = behind.unwrap_or(0.0) * (1.0 - cover);
+        let mut own = *shares;
+        own[BOXES] = None;
+        for (noise, shares) in self.noises.iter_mut().zip([&own, shares]) {
+            noise.add(shown(glimpse.outlook.under(light, shares)) * cover + ground);
+        }
         if behind.is_none() {
             self.covers += cover * cover;
         }
     }
 
-    /// How bright the mean looks.
-    fn shown(&self) -> f64 {
-        self.shown / f64::from(self.count)
+    /// How bright the mean looks under such `shares`, before a background that looks as bright as `behind`.
+    fn shown(&self, shares: &Shares, behind: Option<f64>) -> f64 {
+        let cover = self.cover / f64::from(self.count);
+        let ground = behind.unwrap_or(0.0) * (1.0 - cover);
+        if self.cover == 0.0 {
+            return ground;
+        }
+        shown(self.outlook.under(self.light, shares) / self.cover) * cover + ground
     }
 
     /// Adds the samples of another pixel.
@@ -379,25 +414,36 @@ impl Sum {
         self.count += other.count;
         self.light += other.light;
         self.cover += other.cover;
-        self.shown += other.shown;
-        self.squares += other.squares;
+        for (noise, other) in self.noises.iter_mut().zip(&other.noises) {
+            noise.shown += other.shown;
+            noise.squares += other.squares;
+        }
         self.covers += other.covers;
         self.outlook.add(&other.outlook);
     }
 
-    /// The standard deviation of how bright samples look, or of how much they cover of what is transparent.
-    fn deviation(&self) -> f64 {
+    /// The standard deviation of how bright samples look that go by what is `known`, or of how much they cover of
+    /// what is transparent.
+    fn deviation(&self, known: &Known) -> f64 {
         let count = f64::from(self.count);
         let deviation = |sum: f64, squares: f64| {
             let mean = sum / count;
             (squares / count - mean * mean).max(0.0).sqrt()
         };
-        deviation(self.shown, self.squares).max(deviation(self.cover, self.covers))
+        let Noise { shown, squares } = self.noises[usize::from(known.pooled[BOXES])];
+        deviation(shown, squares).max(deviation(self.cover, self.covers))
     }
 
     /// The standard error of the mean, as of samples that know nothing of each other; these are more even, and
     /// err less.
-    fn error(&self) -> f64 {
-        self.deviation() / (f64::from(self.count) - 1.0).max(1.0).sqrt()
+    fn error(&self, known: &Known) -> f64 {
+        self.deviation(known) / (f64::from(self.count) - 1.0).max(1.0).sqrt()
+    }
+}
+
+impl Noise {
+    fn add(&mut self, shown: f64) {
+        self.shown += shown;
+        self.squares += shown * shown;
     }
 }

@@ -6,7 +6,8 @@ use std::f32::consts::SQRT_2;
 use glam::Vec3;
 
 use crate::lanes::{F32x8, Mask8, Simd, U32x8, Vec3x8, math};
-use crate::scene::{Room, Softbox};
+use crate::packet::boxes::Aabb;
+use crate::scene::{NARROW, Room, Softbox};
 
 /// A room in f32.
 pub struct Lights {
@@ -19,12 +20,26 @@ pub struct Lights {
     daylight: [Vec<f32>; 4],
 }
 
+/// What surfaces see of a softbox as far as nothing stands in the way.
+pub struct Prospect<S: Simd> {
+    /// Where any of it may be above the horizon.
+    pub may_light: Mask8<S>,
+    /// Where all of it is, and it is small enough for the mean cosine to be known: see
+    /// [`Softbox::mean_cosine`].
+    pub is_whole: Mask8<S>,
+    /// The mean cosine there, 0 elsewhere.
+    pub mean: F32x8<S>,
+}
+
 /// A softbox.
 pub struct LightBox {
     /// What it gives a surface that faces it.
     pub color: Vec3,
     center: Vec3,
     half: [Vec3; 2],
+    pub corners: [Vec3; 4],
+    /// A box that holds it.
+    pub aabb: Aabb,
     /// Of its sides' halves.
     lengths: [f32; 2],
     normal: Vec3,
@@ -101,7 +116,13 @@ impl Lights {
 impl LightBox {
     fn new(softbox: &Softbox) -> LightBox {
         let half = softbox.half.map(|side| side.as_vec3());
+        let corner = |across: f64, along: f64| softbox.point((across, along)).as_vec3();
+        let corners = [corner(0.0, 0.0), corner(0.0, 1.0), corner(1.0, 0.0), corner(1.0, 1.0)];
+        let min = corners.iter().fold(Vec3::INFINITY, |min, corner| min.min(*corner));
+        let max = corners.iter().fold(Vec3::NEG_INFINITY, |max, corner| max.max(*corner));
         LightBox {
+            corners,
+            aabb: Aabb { min, max },
             color: softbox.color.as_vec3(),
             center: softbox.center.as_vec3(),
             half,
@@ -118,6 +139,35 @@ impl LightBox {
         let [wide, tall] = self.half;
         let (wide, tall) = (Vec3x8::splat(wide), Vec3x8::splat(tall));
         Vec3x8::splat(self.center) + wide * (two * across - one) + tall * (two * along - one)
+    }
+
+    /// What is known of it, as seen from `points`, without asking any of its own points.
+    #[inline(always)]
+    pub fn prospect<S: Simd>(
+        &self,
+        points: Vec3x8<S>,
+        normals: Vec3x8<S>,
+        outward: Vec3x8<S>,
+    ) -> Prospect<S> {
+        let way = Vec3x8::splat(self.center) - points;
+        let halves = [Vec3x8::splat(self.half[0]), Vec3x8::splat(self.half[1])];
+        let [normal_whole, normal_part] = above(normals, way, &halves);
+        let [outward_whole, outward_part] = above(outward, way, &halves);
+        let square = way.dot(way);
+        let [wide, tall] = self.lengths;
+        let is_far = square.gt(F32x8::splat(NARROW as f32 * (wide * wide + tall * tall)));
+        let is_whole = normal_whole & outward_whole & is_far;
+        let mut mean = F32x8::splat(0.0);
+        if is_whole.any() {
+            let mut sum = way * square;
+            for half in halves {
+                let (along, own) = (half.dot(way), half.dot(half));
+                let bend = F32x8::splat(3.0) * along * along * square.recip() - own;
+                sum += (way * bend - half * (along + along)) * F32x8::splat(1.0 / 6.0);
+            }
+            mean = is_whole.keep(normals.dot(sum) * (square * square.sqrt()).recip());
+        }
+        Prospect { may_light: normal_part & outward_part, is_whole, mean }
     }
 
     /// What mirrors see in it.
@@ -155,6 +205,18 @@ impl LightBox {
         let share = filled(wide, across, scale) * filled(tall, along, scale);
         Vec3x8::splat(self.radiance) * near.keep(share)
     }
+}
+
+/// Whether all of a rectangle, its middle at the end of `way`, lies above the horizon of `normal`, and whether any
+/// of it may.
+#[inline(always)]
+fn above<S: Simd>(
+    normal: Vec3x8<S>,
+    way: Vec3x8<S>,
+    [a, b]: &[Vec3x8<S>; 2],
+) -> [Mask8<S>; 2] {
+    let (middle, spread) = (normal.dot(way), normal.dot(*a).abs() + normal.dot(*b).abs());
+    [middle.gt(spread), middle.gt(-spread)]
 }
 
 /// How much of a blurred stretch of half the `length` each way is seen at `place`.

@@ -13,16 +13,46 @@ use crate::lanes::{self, Mask8, Simd, U32x8, Vec3x8};
 /// are bits are always asked.
 pub const MIRROR: u32 = 31;
 
+/// Light that pixels side by side may share out between them: what comes from the softboxes (those that have a bit),
+/// and what comes from the sky or from what hides it.
+pub const BOXES: usize = 0;
+pub const SKY: usize = 1;
+
+/// How many kinds of such light there are.
+pub const POOLS: usize = 2;
+
+/// Of each kind, how much of its open light there is, by channel; `None` where samples say it themselves.
+pub type Shares = [Option<Vec3>; POOLS];
+
 /// What samples found out where they met a surface first.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Outlook {
     /// Rays that nothing stood in the way of, and those that something did, a bit each.
     pub free: u32,
     pub hidden: u32,
-    /// The light that came from the sky and what hides it, and what would have come had nothing hidden it; both
-    /// as the pixel shows them.
-    pub sky: Vec3,
-    pub open_sky: Vec3,
+    pub pools: [Pool; POOLS],
+}
+
+/// Light of one kind.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Pool {
+    /// What came, and what would have come had nothing stood in the way; both as the pixel shows them.
+    pub came: Vec3,
+    pub open: Vec3,
+}
+
+impl Pool {
+    fn add(&mut self, other: &Pool) {
+        self.came += other.came;
+        self.open += other.open;
+    }
+
+    /// Of its open light what there really is, by channel, all of it where a channel has none; `None` where nobody
+    /// has asked.
+    pub fn share(&self) -> Option<Vec3> {
+        let is_any = self.open.cmpgt(Vec3::ZERO);
+        is_any.any().then(|| Vec3::select(is_any, self.came / self.open, Vec3::ONE))
+    }
 }
 
 impl Outlook {
@@ -30,29 +60,32 @@ impl Outlook {
     pub fn add(&mut self, other: &Outlook) {
         self.free |= other.free;
         self.hidden |= other.hidden;
-        self.sky += other.sky;
-        self.open_sky += other.open_sky;
+        self.pools.iter_mut().zip(&other.pools).for_each(|(pool, other)| pool.add(other));
     }
 
-    /// Takes of the sky's light only that `share`, which the pixel shows.
+    /// Takes of all light only that `share`, which the pixel shows.
     pub fn weigh(&mut self, share: Vec3) {
-        self.sky *= share;
-        self.open_sky *= share;
+        for Pool { came, open } in &mut self.pools {
+            *came *= share;
+            *open *= share;
+        }
     }
 
-    /// Of the light of an open sky what there really is, by channel, all of it where a channel has none;
-    /// `None` where nobody has asked.
-    pub fn share_of_sky(&self) -> Option<Vec3> {
-        let is_any = self.open_sky.cmpgt(Vec3::ZERO);
-        is_any.any().then(|| Vec3::select(is_any, self.sky / self.open_sky, Vec3::ONE))
+    /// Of each kind of light its share.
+    pub fn shares(&self) -> Shares {
+        self.pools.map(|pool| pool.share())
     }
 
-    /// What becomes of `light` that has this light of the sky in it, where of that of an open sky there is such a
-    /// share. (Light is cut where it is too bright, the sky's part of it is not.)
-    pub fn under(&self, light: DVec3, share_of_sky: Option<Vec3>) -> DVec3 {
-        share_of_sky.map_or(light, |share| {
-            (light + (self.open_sky * share - self.sky).as_dvec3()).max(DVec3::ZERO)
-        })
+    /// What becomes of `light` that has this light in it, where there are such shares of what is open. (Light is cut
+    /// where it is too bright, its parts are not.)
+    pub fn under(&self, light: DVec3, shares: &Shares) -> DVec3 {
+        let mut light = light;
+        for (Pool { came, open }, share) in self.pools.iter().zip(shares) {
+            if let Some(share) = share {
+                light = (light + (open * share - came).as_dvec3()).max(DVec3::ZERO);
+            }
+        }
+        light
     }
 
     /// What need not be asked again.
@@ -60,7 +93,7 @@ impl Outlook {
         Known {
             free: self.free & !self.hidden,
             hidden: self.hidden & !self.free,
-            sky: self.share_of_sky().is_some(),
+            pooled: self.pools.map(|pool| pool.share().is_some()),
         }
     }
 }
@@ -71,14 +104,14 @@ pub struct Known {
     /// Rays that nothing stands in the way of, and those that something does, a bit each.
     pub free: u32,
     pub hidden: u32,
-    /// How much there is of the light of an open sky. Samples then have none of it in them.
-    pub sky: bool,
+    /// By kind of light, whether it is known how much there is of what is open. Samples then have none of it in them.
+    pub pooled: [bool; POOLS],
 }
 
 impl Known {
-    /// Which rays need not be asked for, and whether the sky is among them.
-    pub fn answered(&self) -> (bool, u32) {
-        (self.sky, self.free | self.hidden)
+    /// Which rays need not be asked for, and whether the lights' are among them.
+    pub fn answered(&self) -> ([bool; POOLS], u32) {
+        (self.pooled, self.free | self.hidden)
     }
 }
 
@@ -86,30 +119,38 @@ impl Known {
 pub struct Outlooks<S: Simd> {
     /// See [`Known`].
     known: [U32x8<S>; 2],
-    pub knows_sky: Mask8<S>,
+    pub pooled: [Mask8<S>; POOLS],
     /// See [`Outlook`].
     free: U32x8<S>,
     hidden: U32x8<S>,
-    pub sky: Vec3x8<S>,
-    pub open_sky: Vec3x8<S>,
+    pools: [Pool8<S>; POOLS],
+}
+
+/// See [`Pool`].
+#[derive(Clone, Copy)]
+struct Pool8<S: Simd> {
+    came: Vec3x8<S>,
+    open: Vec3x8<S>,
 }
 
 impl<S: Simd> Outlooks<S> {
     #[inline(always)]
     pub fn new(known: &[Known; 8]) -> Outlooks<S> {
-        let (mut free, mut hidden, mut knows_sky) = ([0; 8], [0; 8], 0);
+        let (mut free, mut hidden, mut pooled) = ([0; 8], [0; 8], [0; POOLS]);
         for (lane, known) in known.iter().enumerate() {
             (free[lane], hidden[lane]) = (known.free, known.hidden);
-            knows_sky |= u8::from(known.sky) << lane;
+            for (bits, is_known) in pooled.iter_mut().zip(known.pooled) {
+                *bits |= u8::from(is_known) << lane;
+            }
         }
         let zero = U32x8::splat(0);
+        let dark = Pool8 { came: Vec3x8::zero(), open: Vec3x8::zero() };
         Outlooks {
             known: [U32x8::load(&free), U32x8::load(&hidden)],
-            knows_sky: Mask8::from_bits(knows_sky),
+            pooled: [Mask8::from_bits(pooled[0]), Mask8::from_bits(pooled[1])],
             free: zero,
             hidden: zero,
-            sky: Vec3x8::zero(),
-            open_sky: Vec3x8::zero(),
+            pools: [dark; POOLS],
         }
     }
 
@@ -121,11 +162,21 @@ impl<S: Simd> Outlooks<S> {
         [((free >> bit) & one).eq(one), ((hidden >> bit) & one).eq(one)]
     }
 
-    /// Takes of the sky's light in some lanes only that `share`, which the pixel shows.
+    /// Notes the light of a kind that came in some lanes, and what would have come.
+    #[inline(always)]
+    pub fn gathered(&mut self, kind: usize, lanes: Mask8<S>, came: Vec3x8<S>, open: Vec3x8<S>) {
+        let pool = &mut self.pools[kind];
+        pool.came = Vec3x8::select(lanes, came, pool.came);
+        pool.open = Vec3x8::select(lanes, open, pool.open);
+    }
+
+    /// Takes of all light in some lanes only that `share`, which the pixel shows.
     #[inline(always)]
     pub fn weigh(&mut self, lanes: Mask8<S>, share: Vec3x8<S>) {
-        self.sky = Vec3x8::select(lanes, self.sky.times(share), self.sky);
-        self.open_sky = Vec3x8::select(lanes, self.open_sky.times(share), self.open_sky);
+        for Pool8 { came, open } in &mut self.pools {
+            *came = Vec3x8::select(lanes, came.times(share), *came);
+            *open = Vec3x8::select(lanes, open.times(share), *open);
+        }
     }
 
     /// Notes for rays of a kind where nothing stood in the way, and where something did.
@@ -141,8 +192,10 @@ impl<S: Simd> Outlooks<S> {
         Rows {
             free: self.free.store(),
             hidden: self.hidden.store(),
-            sky: self.sky.rows(),
-            open_sky: self.open_sky.rows(),
+            pools: {
+                let [boxes, sky] = &self.pools;
+                [[boxes.came.rows(), boxes.open.rows()], [sky.came.rows(), sky.open.rows()]]
+            },
         }
     }
 }
@@ -151,8 +204,8 @@ impl<S: Simd> Outlooks<S> {
 pub struct Rows {
     free: [u32; 8],
     hidden: [u32; 8],
-    sky: lanes::Rows,
-    open_sky: lanes::Rows,
+    /// What came of each kind of light, and what would have come.
+    pools: [[lanes::Rows; 2]; POOLS],
 }
 
 impl Rows {
@@ -161,8 +214,10 @@ impl Rows {
         Outlook {
             free: self.free[lane],
             hidden: self.hidden[lane],
-            sky: self.sky.lane(lane),
-            open_sky: self.open_sky.lane(lane),
+            pools: std::array::from_fn(|kind| {
+                let [came, open] = &self.pools[kind];
+                Pool { came: came.lane(lane), open: open.lane(lane) }
+            }),
         }
     }
 }
@@ -173,8 +228,8 @@ mod tests {
     use crate::lanes::Plain;
 
     fn seen(free: u32, hidden: u32) -> Outlook {
-        let (sky, open_sky) = (Vec3::new(0.1, 0.2, 0.3), Vec3::splat(0.4));
-        Outlook { free, hidden, sky, open_sky }
+        let sky = Pool { came: Vec3::new(0.1, 0.2, 0.3), open: Vec3::splat(0.4) };
+        Outlook { free, hidden, pools: [Pool::default(), sky] }
     }
 
     #[test]
@@ -183,8 +238,8 @@ mod tests {
         outlook.add(&seen(0b0001, 0b1010));
         let known = outlook.known();
         assert_eq!((known.free, known.hidden), (0b0001, 0b1000));
-        assert_eq!(outlook.share_of_sky(), Some(Vec3::new(0.2, 0.4, 0.6) / 0.8));
-        assert_eq!([known.sky, Outlook::default().known().sky], [true, false]);
+        assert_eq!(outlook.shares(), [None, Some(Vec3::new(0.2, 0.4, 0.6) / 0.8)]);
+        assert_eq!([known.pooled, Outlook::default().known().pooled], [[false, true], [false; 2]]);
     }
 
     #[test]
@@ -192,7 +247,7 @@ mod tests {
         let mut known = [Known::default(); 8];
         known[3] = seen(0b01, 0b10).known();
         let mut outlooks = Outlooks::<Plain>::new(&known);
-        assert_eq!(outlooks.knows_sky.bits(), 1 << 3);
+        assert_eq!(outlooks.pooled.map(|lanes| lanes.bits()), [0, 1 << 3]);
         assert_eq!(outlooks.known(0).map(|lanes| lanes.bits()), [1 << 3, 0]);
         assert_eq!(outlooks.known(1).map(|lanes| lanes.bits()), [0, 1 << 3]);
         assert_eq!(outlooks.known(MIRROR).map(|lanes| lanes.bits()), [0, 0]);

@@ -11,7 +11,8 @@ use super::plane::Spot;
 use super::ties::{Ties, Ties8};
 use super::world::{OFFSET, World};
 use crate::lanes::{F32x8, LANES, Mask8, Simd, Task, Vec3x8, dispatch, math};
-use crate::packet::Rays;
+use crate::packet::boxes::Aabb;
+use crate::packet::{Rays, shaft};
 use crate::scene::Rgb;
 
 /// How often a ray may go straight through a surface before each further time counts as refraction.
@@ -182,6 +183,7 @@ impl<'a> Phong<'a> {
                 let mut scattered = Vec3x8::grey(materials.ambient(sight.material));
                 let mut highlights = Vec3x8::zero();
                 let zero = F32x8::splat(0.0);
+                let places = shaft::round(leaving, hit);
                 for light in &scene.lights {
                     let towards = Vec3x8::splat(light.position.as_vec3()) - leaving;
                     let distance = towards.length();
@@ -193,7 +195,15 @@ impl<'a> Phong<'a> {
                     }
                     walk.counts.shadow += u64::from(lit.bits().count_ones());
                     let way = Rays { origin: leaving, direction: towards };
-                    let share = world.transmission(&way, distance, lit, &mut walk.ties);
+                    let at = light.position.as_vec3();
+                    let between = world.between::<S>(&places, &Aabb { min: at, max: at });
+                    let asking = lit.but(world.is_open(leaving, &[at], &between));
+                    let mut share = lit.keep(F32x8::splat(1.0));
+                    if asking.any() {
+                        let ties = &mut walk.ties;
+                        let through = world.transmission(&way, distance, asking, &between, ties);
+                        share = asking.select(through, share);
+                    }
                     let lit = lit & share.gt(zero);
                     if !lit.any() {
                         continue;

@@ -4,10 +4,13 @@ use super::absent::Absent;
 use super::body::Body;
 use super::cast::Cast;
 use super::cells::Grid;
+use glam::Vec3;
+
 use crate::geometry::{Bounds, Solid as _};
 use crate::lanes::{F32x8, Mask8, Simd, U32x8, Vec3x8};
 use crate::packet::Rays;
-use crate::packet::boxes::{Hierarchy, Way};
+use crate::packet::boxes::{Aabb, Hierarchy, Way};
+use crate::packet::shaft::{Crowd, Few, Shaft};
 use crate::packet::solids::Normals;
 use crate::packet::surfaces::Look;
 use crate::scene::{Object, Scene};
@@ -34,6 +37,8 @@ pub struct World<'a> {
     loose: Vec<usize>,
     boxes: Hierarchy,
     endless: Vec<usize>,
+    /// All that has an end, for shafts.
+    crowd: Crowd,
     /// Which bodies are transparent.
     transparent: Vec<usize>,
     /// Numbers by which bodies are told apart, whatever else there is.
@@ -48,6 +53,14 @@ pub struct World<'a> {
 pub struct Search<S: Simd> {
     pub lanes: Mask8<S>,
     pub before: F32x8<S>,
+}
+
+/// What may stand between points and a light.
+pub struct Between {
+    /// Bodies that have an end.
+    bodies: Few,
+    /// Whether any member of the cast that is not there would be.
+    is_any_absent: bool,
 }
 
 /// Where rays meet bodies.
@@ -90,6 +103,7 @@ impl<'a> World<'a> {
             loose: Vec::new(),
             boxes: Hierarchy::new(&[], 0.0),
             endless: Vec::new(),
+            crowd: Crowd::new([]),
             transparent: Vec::new(),
             names: Vec::new(),
             members: Vec::new(),
@@ -113,6 +127,10 @@ impl<'a> World<'a> {
         let bounds = |index: &usize| world.bodies[*index].aabb.bounds();
         let loose: Vec<Bounds> = world.loose.iter().map(bounds).collect();
         world.boxes = Hierarchy::new(&loose, 0.0);
+        // What has none is never met there.
+        let nowhere = Aabb { min: Vec3::INFINITY, max: Vec3::NEG_INFINITY };
+        let ends = |body: &Body| if body.is_endless { nowhere } else { body.aabb };
+        world.crowd = Crowd::new(world.bodies.iter().map(ends));
         world.absent = cast.map(|cast| {
             let others = (0..).zip(cast.members());
             let absent = others
@@ -189,45 +207,72 @@ impl<'a> World<'a> {
         )
     }
 
+    /// What may stand between points within `from` and a light within `to`.
+    #[inline(always)]
+    pub fn between<S: Simd>(&self, from: &Aabb, to: &Aabb) -> Between {
+        let shaft = Shaft::new(from, to);
+        let absent = self.absent.as_ref();
+        Between {
+            bodies: self.crowd.among::<S>(&shaft),
+            is_any_absent: absent.is_some_and(|absent| absent.may_be_in::<S>(&shaft)),
+        }
+    }
+
+    /// From which `points` nothing stands in the way of a light with these `corners`, if that is known without
+    /// asking.
+    #[inline(always)]
+    pub fn is_open<S: Simd>(
+        &self,
+        points: Vec3x8<S>,
+        corners: &[Vec3],
+        between: &Between,
+    ) -> Mask8<S> {
+        if !between.bodies.is_empty() || between.is_any_absent {
+            return Mask8::no_lanes();
+        }
+        let mut open = Mask8::all_lanes();
+        for index in &self.endless {
+            open = open & self.bodies[*index].is_below(points, corners);
+        }
+        open
+    }
+
     /// How much of lights at `distance` comes along `rays`: what is opaque holds all of it back, each
-    /// surface of what is transparent lets its share through. (A line bends at none of them.)
+    /// surface of what is transparent lets its share through. (A line bends at none of them.) Nothing else that has an
+    /// end may be in the way but what is `between`.
     #[inline(never)]
     pub fn transmission<S: Simd>(
         &self,
         rays: &Rays<S>,
         distance: F32x8<S>,
         lanes: Mask8<S>,
+        between: &Between,
         ties: &mut Option<Ties8<S>>,
     ) -> F32x8<S> {
         S::run(
             #[inline(always)]
             || {
-                let zero = F32x8::splat(0.0);
-                let mut dark = Mask8::no_lanes();
-                self.visit(
-                    rays,
-                    Search { lanes, before: distance },
-                    #[inline(always)]
-                    |index, lanes, search| {
-                        let body = &self.bodies[index];
-                        if body.is_transparent {
-                            return;
-                        }
-                        let blocked = lanes & body.blocks(rays, zero, distance, lanes);
-                        search.lanes = search.lanes.but(blocked);
-                        dark = dark | blocked;
-                        if let Some(ties) = ties {
-                            ties.add(self.members[index], blocked);
-                        }
-                    },
-                );
+                let (way, zero) = (Way::new(rays), F32x8::splat(0.0));
+                let mut open = lanes;
+                let endless = self.endless.iter().map(|index| *index as u32);
+                for index in endless.chain(between.bodies.iter().copied()) {
+                    let body = &self.bodies[index as usize];
+                    let near = open & body.may_meet(&way, distance);
+                    if body.is_transparent || !near.any() {
+                        continue;
+                    }
+                    let blocked = near & body.blocks(rays, zero, distance, near);
+                    open = open.but(blocked);
+                    if let Some(ties) = ties {
+                        ties.add(self.members[index as usize], blocked);
+                    }
+                }
                 // Whatever else is in the way of what is dark makes no difference.
-                let open = lanes.but(dark);
                 let mut share = open.keep(F32x8::splat(1.0));
                 if !self.transparent.is_empty() {
                     share = self.dimmed(rays, distance, open, ties);
                 }
-                if let (Some(ties), Some(absent)) = (ties, &self.absent) {
+                if let (Some(ties), Some(absent), true) = (ties, &self.absent, between.is_any_absent) {
                     absent.would_block(&self.materials, rays, distance, open, ties);
                 }
                 share

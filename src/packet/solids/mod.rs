@@ -129,6 +129,16 @@ impl Solid {
         }
     }
 
+    /// Whether points are all on the side of a plane where nothing is, so that no way between any two of them meets it;
+    /// no other solid tells.
+    #[inline(always)]
+    pub fn is_below<S: Simd>(&self, points: Vec3x8<S>) -> Mask8<S> {
+        match self {
+            Solid::Plane(plane) => plane.is_below(points),
+            _ => Mask8::no_lanes(),
+        }
+    }
+
     /// Whether points lie inside.
     #[inline(always)]
     pub fn contains<S: Simd>(&self, points: Vec3x8<S>, lanes: Mask8<S>) -> Mask8<S> {

@@ -47,6 +47,12 @@ impl Plane {
         Normals::flat(Vec3x8::splat(self.normal))
     }
 
+    /// Which of the `points` lie in front of it.
+    #[inline(always)]
+    pub fn is_below<S: Simd>(&self, points: Vec3x8<S>) -> Mask8<S> {
+        self.height(points).gt(F32x8::splat(0.0))
+    }
+
     #[inline(always)]
     fn height<S: Simd>(&self, points: Vec3x8<S>) -> F32x8<S> {
         (points - Vec3x8::splat(self.origin)).dot(Vec3x8::splat(self.normal))

@@ -11,11 +11,11 @@ use glam::{DVec3, Vec3};
 use super::optics::{facing, fresnel, grazing, mirrored, refracted};
 use super::world::{OFFSET, World};
 use crate::geometry::{Hit, Ray, Solid};
-use crate::scene::{MIDDLE, Material, Rgb, Room, Scene, linear_light};
+use crate::scene::{MIDDLE, Material, Rgb, Room, Scene, Softbox, linear_light};
 use crate::tracer::RayCounts;
 use crate::tracer::exposure::{Glimpse, LENS, PLACE, Sample};
 use crate::tracer::eye::Eye;
-use crate::tracer::outlook::{self, Known, Outlook};
+use crate::tracer::outlook::{self, BOXES, Known, Outlook, Pool, SKY};
 use crate::tracer::sequence::Sequence;
 use crate::tracer::studio::{
     BRIGHTEST_IN_A_MIRROR, FAR_GROUND, FREE_SKY, GROUND, HIDES, MELTS, MIRRORS_FROM, PAPER,
@@ -147,41 +147,57 @@ impl<'a> Studio<'a> {
 
     /// The light that falls on a surface, as seen on white.
     fn gathered(&self, flight: &Flight, meeting: &Meeting, draw: &mut Draw) -> Rgb {
-        let from = flight.depth * purpose::STEP;
-        let mut sum = Rgb::ZERO;
+        let [mut came, mut open, mut others] = [Rgb::ZERO; 3];
         for (number, softbox) in self.room.softboxes.iter().enumerate() {
-            let pair = draw.numbers.pair(from + purpose::SOFTBOX + number as u32);
-            let towards = softbox.point(pair) - meeting.leaving;
-            let distance = towards.length();
-            let towards = towards / distance;
-            let cosine = meeting.normal.dot(towards);
-            if cosine <= 0.0 || meeting.outward.dot(towards) <= 0.0 {
-                continue;
+            let is_noted = flight.depth == 0 && number < outlook::MIRROR as usize;
+            let (full, lost) = self.softbox(softbox, number as u32, flight, meeting, draw);
+            if is_noted {
+                open += softbox.color * full;
+                came += softbox.color * (full - lost);
+            } else {
+                others += softbox.color * (full - lost);
             }
-            let mut light = softbox.color * cosine;
-            if flight.weight >= SHADOWS_FROM {
-                let way = Ray { origin: meeting.leaving, direction: towards };
-                light *= self.open(&way, distance, number as u32, flight.depth, draw);
-            }
-            sum += light;
         }
-        sum + self.daylight(flight, meeting, draw)
+        if flight.depth == 0 {
+            if draw.known.pooled[BOXES] {
+                came = Rgb::ZERO;
+            }
+            draw.outlook.pools[BOXES] = Pool { came: came.as_vec3(), open: open.as_vec3() };
+        }
+        came + others + self.daylight(flight, meeting, draw)
     }
 
-    /// How much of a softbox, by number, is seen along a ray.
-    fn open(&self, way: &Ray, distance: f64, number: u32, depth: u32, draw: &mut Draw) -> f64 {
-        let bit = if depth == 0 && number < outlook::MIRROR { 1 << number } else { 0 };
-        if draw.known.free & bit != 0 {
-            return 1.0;
-        }
+    /// The cosine of the light of a softbox, by number, and what is lost of it by what stands in the way.
+    fn softbox(
+        &self,
+        softbox: &Softbox,
+        number: u32,
+        flight: &Flight,
+        meeting: &Meeting,
+        draw: &mut Draw,
+    ) -> (f64, f64) {
+        let Meeting { leaving, normal, outward, .. } = *meeting;
+        let pair = draw.numbers.pair(flight.depth * purpose::STEP + purpose::SOFTBOX + number);
+        let towards = softbox.point(pair) - leaving;
+        let distance = towards.length();
+        let towards = towards / distance;
+        let is_lit = normal.dot(towards) > 0.0 && outward.dot(towards) > 0.0;
+        let cosine = if is_lit { normal.dot(towards) } else { 0.0 };
+        // Of a softbox that is seen whole, the sample says no more than how much is lost.
+        let full = softbox.mean_cosine(leaving, normal, outward).unwrap_or(cosine);
+        let bit = if flight.depth == 0 && number < outlook::MIRROR { 1 << number } else { 0 };
         if draw.known.hidden & bit != 0 {
-            return 0.0;
+            return (full, full);
+        }
+        let is_pooled = bit != 0 && draw.known.pooled[BOXES];
+        if !is_lit || draw.known.free & bit != 0 || is_pooled || flight.weight < SHADOWS_FROM {
+            return (full, 0.0);
         }
         draw.counts.shadow += 1;
-        let open = self.world.transmission(way, distance);
+        let open = self.world.transmission(&Ray { origin: leaving, direction: towards }, distance);
         draw.outlook.free |= if open > 0.0 { bit } else { 0 };
         draw.outlook.hidden |= if open < 1.0 { bit } else { 0 };
-        open
+        (full, cosine * (1.0 - open))
     }
 
     /// What comes from the sky, and from other surfaces that hide it.
@@ -192,9 +208,12 @@ impl<'a> Studio<'a> {
         }
         let ground = Rgb::splat(FAR_GROUND) * self.room.bounce;
         let open = sky.brightness * sky.share + ground * (1.0 - sky.share);
-        let light =
-            if draw.known.sky { Rgb::ZERO } else { self.asked_sky(meeting, sky.brightness, draw) };
-        (draw.outlook.sky, draw.outlook.open_sky) = (light.as_vec3(), open.as_vec3());
+        let light = if draw.known.pooled[SKY] {
+            Rgb::ZERO
+        } else {
+            self.asked_sky(meeting, sky.brightness, draw)
+        };
+        draw.outlook.pools[SKY] = Pool { came: light.as_vec3(), open: open.as_vec3() };
         light
     }
 

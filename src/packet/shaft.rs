@@ -1,0 +1,189 @@
+//! What may stand between the points of one box and those of another: such ways make a shaft (E. Haines and J. Wallace,
+//! *Shaft Culling for Efficient Ray-Traced Radiosity*, 1991).
+//!
+//! The points of a packet and a light make a shaft so narrow that most are empty: then none of its rays need be
+//! asked. What is found is never too little, and depends on neighbours; so it decides which questions are
+//! worth asking, and no answer.
+
+use glam::Vec3;
+use smallvec::SmallVec;
+
+use super::boxes::Aabb;
+use crate::lanes::{F32x8, LANES, Mask8, Simd, Vec3x8};
+
+/// How much larger a shaft is made at its two ends, in world units: more than rounding errors.
+const ROOM: [f32; 2] = [1e-3, 1e-2];
+
+/// All ways from a point of one box to one of another.
+pub struct Shaft {
+    /// By axis: one lower and one upper border, each where it begins, and what a step of 1 there brings in parts of
+    /// the whole way.
+    low: [Border; 3],
+    high: [Border; 3],
+}
+
+/// A border of a shaft along an axis.
+#[derive(Clone, Copy)]
+struct Border {
+    start: f32,
+    per_unit: f32,
+}
+
+/// The numbers of few boxes among many.
+pub type Few = SmallVec<[u32; 16]>;
+
+/// Boxes, eight at once.
+pub struct Crowd {
+    /// The lower corners' coordinates, and the upper ones'.
+    rows: Vec<[[[f32; LANES]; 3]; 2]>,
+}
+
+impl Shaft {
+    pub fn new(from: &Aabb, to: &Aabb) -> Shaft {
+        let [start, end] = ROOM.map(Vec3::splat);
+        let (from, to) = ([from.min - start, from.max + start], [to.min - end, to.max + end]);
+        let border = |side: usize, axis: usize| {
+            let way = to[side][axis] - from[side][axis];
+            // Where it leads nowhere, steps are as good as endless.
+            let way = if way.abs() < 1e-6 { 1e-6 } else { way };
+            Border { start: from[side][axis], per_unit: 1.0 / way }
+        };
+        let borders = |side: usize| [0, 1, 2].map(|axis| border(side, axis));
+        Shaft { low: borders(0), high: borders(1) }
+    }
+}
+
+/// The smallest box round some points; one of nothing where there are none.
+#[inline(always)]
+pub fn round<S: Simd>(points: Vec3x8<S>, lanes: Mask8<S>) -> Aabb {
+    let [mut min, mut max] = [Vec3::INFINITY, Vec3::NEG_INFINITY];
+    let rows = points.rows();
+    let mut left = lanes.bits();
+    while left != 0 {
+        let point = rows.lane(left.trailing_zeros() as usize);
+        (min, max) = (min.min(point), max.max(point));
+        left &= left - 1;
+    }
+    Aabb { min, max }
+}
+
+impl Crowd {
+    pub fn new(boxes: impl IntoIterator<Item = Aabb>) -> Crowd {
+        // Where a row has no eighth box, there is one that holds nothing.
+        let mut rows = Vec::new();
+        for (number, Aabb { min, max }) in boxes.into_iter().enumerate() {
+            if number % LANES == 0 {
+                rows.push([[[f32::INFINITY; LANES]; 3], [[f32::NEG_INFINITY; LANES]; 3]]);
+            }
+            let row = &mut rows[number / LANES];
+            for axis in 0..3 {
+                row[0][axis][number % LANES] = min[axis];
+                row[1][axis][number % LANES] = max[axis];
+            }
+        }
+        Crowd { rows }
+    }
+
+    /// Those that ways in the shaft may meet.
+    #[inline(always)]
+    pub fn among<S: Simd>(&self, shaft: &Shaft) -> Few {
+        let mut few = Few::new();
+        for (index, row) in (0..).zip(&self.rows) {
+            let mut left = met::<S>(row, shaft).bits();
+            while left != 0 {
+                few.push(index * LANES as u32 + left.trailing_zeros());
+                left &= left - 1;
+            }
+        }
+        few
+    }
+
+    /// Whether they may meet any.
+    #[inline(always)]
+    pub fn is_met<S: Simd>(&self, shaft: &Shaft) -> bool {
+        self.rows.iter().any(|row| met::<S>(row, shaft).any())
+    }
+}
+
+/// Which boxes of a row a shaft may meet. At each part of the way, from 0 to 1, it is a box, whose borders
+/// move evenly: there must be a part where no border has left the other box behind.
+#[inline(always)]
+fn met<S: Simd>([min, max]: &[[[f32; LANES]; 3]; 2], shaft: &Shaft) -> Mask8<S> {
+    let (mut enter, mut exit) = (F32x8::splat(0.0), F32x8::splat(1.0));
+    for axis in 0..3 {
+        let Border { start, per_unit } = shaft.low[axis];
+        let part = (F32x8::load(&max[axis]) - F32x8::splat(start)) * F32x8::splat(per_unit);
+        if per_unit > 0.0 {
+            exit = exit.min(part);
+        } else {
+            enter = enter.max(part);
+        }
+        let Border { start, per_unit } = shaft.high[axis];
+        let part = (F32x8::load(&min[axis]) - F32x8::splat(start)) * F32x8::splat(per_unit);
+        if per_unit > 0.0 {
+            enter = enter.max(part);
+        } else {
+            exit = exit.min(part);
+        }
+    }
+    enter.le(exit)
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::lanes::Plain;
+    use crate::packet::Rays;
+    use crate::packet::boxes::Way;
+
+    fn aabb() -> impl Strategy<Value = Aabb> {
+        let place = || prop_oneof![-9.0..9.0_f32, Just(0.0), Just(2.0)];
+        let size = || prop_oneof![0.0..5.0_f32, Just(0.0)];
+        ([place(), place(), place()], [size(), size(), size()])
+            .prop_map(|(min, size)| Aabb { min: min.into(), max: Vec3::from(min) + Vec3::from(size) })
+    }
+
+    proptest! {
+        /// Whatever boxes there are: a way that meets one of them is in a shaft that meets it.
+        #[test]
+        fn no_box_in_the_way_is_left_out(
+            [from, to] in [aabb(), aabb()],
+            boxes in proptest::collection::vec(aabb(), 1..20),
+            places in proptest::collection::vec([0.0..=1.0_f32, 0.0..=1.0, 0.0..=1.0], 2..30),
+        ) {
+            let crowd = Crowd::new(boxes.iter().copied());
+            let shaft = Shaft::new(&from, &to);
+            let few = crowd.among::<Plain>(&shaft);
+            prop_assert_eq!(crowd.is_met::<Plain>(&shaft), !few.is_empty());
+            for pair in places.windows(2) {
+                let point = |aabb: &Aabb, place: [f32; 3]| aabb.min + (aabb.max - aabb.min) * Vec3::from(place);
+                let (start, end) = (point(&from, pair[0]), point(&to, pair[1]));
+                let load = |v: Vec3| Vec3x8::<Plain>::load(&[DVec3::from(v); 8]);
+                let rays = Rays { origin: load(start), direction: load(end - start) };
+                let (way, zero, one) = (Way::new(&rays), F32x8::splat(0.0), F32x8::splat(1.0));
+                for (number, aabb) in (0..).zip(&boxes) {
+                    if aabb.may_meet(&way, zero, one).any() {
+                        prop_assert!(few.contains(&number), "{number} of {boxes:?}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn an_empty_shaft_meets_nothing() {
+        let cube = |x: f32, y: f32| Aabb { min: Vec3::new(x, y, 0.0), max: Vec3::new(x + 1.0, y + 1.0, 1.0) };
+        let crowd = Crowd::new((0..10).map(|number| cube(2.0 * number as f32, 0.0)));
+        let among = |from: &Aabb, to: &Aabb| crowd.among::<Plain>(&Shaft::new(from, to)).to_vec();
+        let up = |x: f32| among(&cube(x, -3.0), &cube(x, 3.0));
+        assert_eq!(up(4.0), [2]);
+        assert_eq!(up(9.0), [4, 5]);
+        assert!(up(-3.0).is_empty() && up(30.0).is_empty());
+        assert!(among(&cube(0.0, 2.0), &cube(18.0, 3.0)).is_empty());
+        assert_eq!(among(&cube(0.0, -2.0), &cube(18.0, 3.0)), [3, 4, 5, 6]);
+        assert_eq!(round(Vec3x8::<Plain>::zero(), Mask8::first(2)).max, Vec3::ZERO);
+    }
+}
