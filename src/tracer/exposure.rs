@@ -1,9 +1,9 @@
 //! The studio's pictures: many samples a pixel, and more where they disagree.
 
-use glam::{DVec3, Vec3};
+use glam::Vec3;
 
 use super::eye::Eye;
-use super::outlook::{BOXES, Known, Outlook, POOLS, SKY, Shares};
+use super::outlook::{BOXES, Known, OPEN, Outlook, POOLS, SKY, Shares};
 use super::pixel::{Pixel, Stored};
 use super::plane::{Plane, Spot};
 use super::sketch::Painter;
@@ -21,11 +21,11 @@ pub const LENS: u32 = 1;
 const FEWEST: u32 = 4;
 
 /// With so many times the first samples an error may be as great as the threshold.
-const ENOUGH: f64 = 1.25;
+const ENOUGH: f32 = 1.25;
 
 /// Pixels side by side whose brightness differs by more are looked at again: a hairline may have been
 /// missed in one of them.
-const CONTRAST: f64 = 0.08;
+const CONTRAST: f32 = 0.08;
 
 /// One bright sample among dark ones counts no more than this: fine highlights do not flicker.
 const BRIGHTEST: f32 = 2.0;
@@ -63,7 +63,7 @@ pub struct Exposure<E> {
     sizes: Sizes,
     background: Option<Rgb>,
     /// How bright the background looks, if there is one.
-    behind: Option<f64>,
+    behind: Option<f32>,
 }
 
 /// How many samples pixels get.
@@ -73,7 +73,7 @@ pub struct Sizes {
     first: u32,
     most: u32,
     /// The error of a pixel's mean that is small enough, of what can be shown; negative where none is.
-    error: f64,
+    error: f32,
     has_lens: bool,
 }
 
@@ -81,29 +81,31 @@ pub struct Sizes {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Sum {
     count: u32,
-    light: DVec3,
-    cover: f64,
+    light: Vec3,
+    cover: f32,
+    /// Of the square of what they cover.
+    covers: f32,
     /// How bright samples look as they are, and as of what is seen under one share of the softboxes' light.
     noises: [Noise; 2],
-    /// Of the square of what they cover.
-    covers: f64,
     outlook: Outlook,
+    /// How bright the first look at it is as it is, and as of what is seen under open light.
+    brightness: [f32; 2],
 }
 
 /// How much samples differ.
 #[derive(Clone, Copy, Debug, Default)]
 struct Noise {
     /// Of how bright they look, and of its square.
-    shown: f64,
-    squares: f64,
+    shown: f32,
+    squares: f32,
 }
 
-/// All samples of a pixel, but for how much of the sky they see.
+/// All samples of a pixel, but for how much they see of light that is shared out.
 #[derive(Clone, Copy, Debug)]
 pub struct Exposed {
     count: u32,
-    light: DVec3,
-    cover: f64,
+    light: Vec3,
+    cover: f32,
     outlook: Outlook,
     /// Why there are so many of them.
     plan: Plan,
@@ -146,8 +148,17 @@ impl Guide {
 }
 
 /// How bright light looks, 0 to 1: a square root is near enough.
-fn shown(light: DVec3) -> f64 {
-    light.dot(DVec3::splat(1.0 / 3.0)).clamp(0.0, 1.0).sqrt()
+fn shown(light: Vec3) -> f32 {
+    ((light.x + light.y + light.z) * (1.0 / 3.0)).clamp(0.0, 1.0).sqrt()
+}
+
+/// The shares of light that pixels share out; none of what they do not.
+fn shared(shares: Shares, known: &Known) -> Shares {
+    let mut shares = shares;
+    shares.iter_mut().zip(known.pooled).for_each(|(share, is_shared)| {
+        share.take_if(|_| !is_shared);
+    });
+    shares
 }
 
 impl Sizes {
@@ -160,7 +171,7 @@ impl Sizes {
             Antialiasing::Adaptive { rays, threshold } => {
                 // Samples are most even in powers of two.
                 let quarter = (rays * rays / 4).max(1);
-                (1 << quarter.ilog2(), rays * rays, f64::from(threshold))
+                (1 << quarter.ilog2(), rays * rays, threshold)
             }
         };
         let has_lens = scene.camera.has_lens();
@@ -176,7 +187,7 @@ impl Sizes {
     /// Whether a pixel that had its first look needs more samples. `around` are the first looks at it and at the
     /// pixels beside it: where they spread, its own few may be alike by chance.
     fn goes_on(&self, sum: &Sum, around: &Sum, Plan { known, differs, .. }: &Plan) -> bool {
-        let least = around.deviation(known) / f64::from(self.few).sqrt();
+        let least = around.deviation(known) / (self.few as f32).sqrt();
         self.is_short(sum, least.max(sum.error(known)), *differs)
     }
 
@@ -187,7 +198,7 @@ impl Sizes {
 
     /// An error may be the greater the more samples it took. So each sample goes where it brings most, since
     /// halving an error takes four times as many.
-    fn is_short(&self, sum: &Sum, error: f64, differs: bool) -> bool {
+    fn is_short(&self, sum: &Sum, error: f32, differs: bool) -> bool {
         if sum.count >= self.most {
             return false;
         }
@@ -196,13 +207,13 @@ impl Sizes {
         }
         // What a lens blurs is made of few bright samples among many.
         let small = if self.has_lens { self.error / 2.0 } else { self.error };
-        error > small * f64::from(sum.count) / (ENOUGH * f64::from(self.first))
+        error > small * sum.count as f32 / (ENOUGH * self.first as f32)
     }
 }
 
 impl<E: Eye<[Sample], Glimpse>> Exposure<E> {
     pub fn new(eye: E, scene: &Scene, sizes: Sizes) -> Exposure<E> {
-        let behind = scene.background.map(|color| shown(linear_light(color)));
+        let behind = scene.background.map(|color| shown(linear_light(color).as_vec3()));
         Exposure { eye, sizes, background: scene.background, behind }
     }
 
@@ -248,39 +259,38 @@ impl<E: Eye<[Sample], Glimpse>> Exposure<E> {
 
     /// What first looks at a pixel and at those beside it tell.
     fn plan(&self, spot: Spot, looks: &Plane<Sum>) -> Plan {
-        let own = looks.at(spot);
-        let (mut around, mut all_free, mut all_hidden) = (Sum::default(), 0, 0);
+        let own = looks.value(spot);
+        let (mut around, mut free, mut hidden) = (Sum::default(), 0, 0);
+        let mut differ = [false; 2];
         for there in looks.round(spot) {
-            let known = there.outlook.known();
-            (all_free, all_hidden) = (all_free | known.free, all_hidden | known.hidden);
-            around.merge(&there);
+            free |= there.outlook.free & !there.outlook.hidden;
+            hidden |= there.outlook.hidden & !there.outlook.free;
+            around.merge(there);
+            for (differs, (there, own)) in
+                differ.iter_mut().zip(there.brightness.iter().zip(&own.brightness))
+            {
+                *differs |= (there - own).abs() > CONTRAST;
+            }
         }
         let mut known = around.outlook.known();
-        // Where one pixel is lit and another is not there is an edge of a shadow, which would be blurred.
-        known.pooled[BOXES] &= all_free & all_hidden == 0 && self.sizes.few <= FEWEST;
-        let mut shares = around.outlook.shares();
-        shares.iter_mut().zip(known.pooled).for_each(|(share, is_known)| {
-            share.take_if(|_| !is_known);
-        });
-        let shown = own.shown(&shares, self.behind);
-        let differs = looks
-            .round(spot)
-            .any(|there| (there.shown(&shares, self.behind) - shown).abs() > CONTRAST);
-        // Many samples of its own know an edge better.
+        // Many samples of its own know an edge better. Where one pixel is lit and another is not there is an edge of
+        // a shadow, which would be blurred.
+        let is_edge = differ[OPEN] || free & hidden != 0;
+        known.pooled[BOXES] &= !is_edge && self.sizes.few <= FEWEST;
+        let differs = differ[usize::from(known.pooled[BOXES])];
         known.pooled[SKY] &= !differs || self.sizes.few <= FEWEST;
-        known.pooled[BOXES] &= !differs;
         let plan = Plan { known, differs, goes_on: false };
-        Plan { goes_on: self.sizes.goes_on(&own, &around, &plan), ..plan }
+        Plan { goes_on: self.sizes.goes_on(own, &around, &plan), ..plan }
     }
 
     /// What the samples show: their light through the tone curve, over the background.
     fn developed(&self, all: &Exposed, shares: &Shares) -> Pixel {
         let light = all.outlook.under(all.light, shares);
-        let cover = all.cover / f64::from(all.count);
+        let cover = f64::from(all.cover) / f64::from(all.count);
         let color = if cover == 0.0 {
             Rgb::ZERO
         } else {
-            tone::stored(tone::neutral(light / all.cover)) * cover
+            tone::stored(tone::neutral((light / all.cover).as_dvec3())) * cover
         };
         match self.background {
             Some(background) => {
@@ -300,6 +310,7 @@ impl<E: Eye<[Sample], Glimpse>> Painter for Exposure<E> {
         let mut nothing = Sum::default();
         let none = [None; POOLS];
         (0..self.sizes.few).for_each(|_| nothing.add(&Glimpse::default(), &none, self.behind));
+        nothing.looked(self.behind);
         let exposed = Exposed::new(&nothing, Plan::default());
         (nothing, exposed, self.developed(&exposed, &none).stored())
     }
@@ -315,7 +326,9 @@ impl<E: Eye<[Sample], Glimpse>> Painter for Exposure<E> {
             ties.resize(spots.len(), Ties::default());
             &mut ties[..]
         });
-        self.add(spots, &all, &[], |_| self.sizes.few, made, ties)
+        let counts = self.add(spots, &all, &[], |_| self.sizes.few, made, ties);
+        made.iter_mut().for_each(|sum| sum.looked(self.behind));
+        counts
     }
 
     /// Adds samples to pixels until their errors are small enough.
@@ -354,15 +367,11 @@ impl<E: Eye<[Sample], Glimpse>> Painter for Exposure<E> {
 
     /// Shares that its samples did not ask for are those of all first looks round the pixel together.
     fn finish(&self, spot: Spot, looks: &Plane<Sum>, work: &Exposed) -> Stored {
-        let (mut around, pooled) = (Outlook::default(), work.plan.known.pooled);
-        if pooled.contains(&true) {
+        let mut around = Outlook::default();
+        if work.plan.known.pooled.contains(&true) {
             looks.round(spot).for_each(|there| around.add(&there.outlook));
         }
-        let mut shares = around.shares();
-        shares.iter_mut().zip(pooled).for_each(|(share, is_known)| {
-            share.take_if(|_| !is_known);
-        });
-        self.developed(work, &shares).stored()
+        self.developed(work, &shared(around.shares(), &work.plan.known)).stored()
     }
 
     fn rays(&self) -> u64 {
@@ -380,39 +389,38 @@ fn shares(seen: &[Glimpse]) -> Shares {
 impl Sum {
     /// Adds a sample, before a background that looks as bright as `behind`. Its error is as of what is seen
     /// under such `shares` of open light.
-    fn add(&mut self, glimpse: &Glimpse, shares: &Shares, behind: Option<f64>) {
-        let (light, cover) = (glimpse.light.as_dvec3(), f64::from(glimpse.cover));
+    fn add(&mut self, glimpse: &Glimpse, shares: &Shares, behind: Option<f32>) {
+        let Glimpse { light, cover, mut outlook } = *glimpse;
+        let ground = behind.unwrap_or(0.0) * (1.0 - cover);
+        let own = outlook.under_one(SKY, light, shares);
+        let one = outlook.under_one(BOXES, own, shares);
+        let bright = shown(own) * cover + ground;
+        self.noises[0].add(bright);
+        self.noises[1].add(if one == own { bright } else { shown(one) * cover + ground });
+        outlook.weigh(Vec3::splat(cover));
+        self.outlook.add(&outlook);
         self.count += 1;
         self.light += light * cover;
         self.cover += cover;
-        let mut outlook = glimpse.outlook;
-        outlook.weigh(Vec3::splat(glimpse.cover));
-        self.outlook.add(&outlook);
-        let ground = behind.unwrap_or(0.0) * (1.0 - cover);
-        let mut own = *shares;
-        own[BOXES] = None;
-        for (noise, shares) in self.noises.iter_mut().zip([&own, shares]) {
-            noise.add(shown(glimpse.outlook.under(light, shares)) * cover + ground);
-        }
         if behind.is_none() {
             self.covers += cover * cover;
         }
     }
 
-    /// How bright the mean looks under such `shares`, before a background that looks as bright as `behind`.
-    fn shown(&self, shares: &Shares, behind: Option<f64>) -> f64 {
-        let cover = self.cover / f64::from(self.count);
+    /// Ends the first look.
+    fn looked(&mut self, behind: Option<f32>) {
+        let cover = self.cover / self.count as f32;
         let ground = behind.unwrap_or(0.0) * (1.0 - cover);
-        if self.cover == 0.0 {
-            return ground;
+        self.brightness = [ground; 2];
+        if self.cover > 0.0 {
+            let open = self.outlook.under(self.light, &[Some(Vec3::ONE); POOLS]);
+            self.brightness = [self.light, open].map(|light| shown(light / self.cover) * cover + ground);
         }
-        shown(self.outlook.under(self.light, shares) / self.cover) * cover + ground
     }
 
     /// Adds the samples of another pixel.
     fn merge(&mut self, other: &Sum) {
         self.count += other.count;
-        self.light += other.light;
         self.cover += other.cover;
         for (noise, other) in self.noises.iter_mut().zip(&other.noises) {
             noise.shown += other.shown;
@@ -424,25 +432,25 @@ impl Sum {
 
     /// The standard deviation of how bright samples look that go by what is `known`, or of how much they cover of
     /// what is transparent.
-    fn deviation(&self, known: &Known) -> f64 {
-        let count = f64::from(self.count);
-        let deviation = |sum: f64, squares: f64| {
-            let mean = sum / count;
-            (squares / count - mean * mean).max(0.0).sqrt()
+    fn deviation(&self, known: &Known) -> f32 {
+        let scale = 1.0 / self.count as f32;
+        let variance = |sum: f32, squares: f32| {
+            let mean = sum * scale;
+            (squares * scale - mean * mean).max(0.0)
         };
         let Noise { shown, squares } = self.noises[usize::from(known.pooled[BOXES])];
-        deviation(shown, squares).max(deviation(self.cover, self.covers))
+        variance(shown, squares).max(variance(self.cover, self.covers)).sqrt()
     }
 
     /// The standard error of the mean, as of samples that know nothing of each other; these are more even, and
     /// err less.
-    fn error(&self, known: &Known) -> f64 {
-        self.deviation(known) / (f64::from(self.count) - 1.0).max(1.0).sqrt()
+    fn error(&self, known: &Known) -> f32 {
+        self.deviation(known) / (self.count as f32 - 1.0).max(1.0).sqrt()
     }
 }
 
 impl Noise {
-    fn add(&mut self, shown: f64) {
+    fn add(&mut self, shown: f32) {
         self.shown += shown;
         self.squares += shown * shown;
     }

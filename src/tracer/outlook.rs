@@ -5,7 +5,7 @@
 //! the samples of one: also at the edges of bodies, where what they share out is what each sample would see under an
 //! open sky.
 
-use glam::{DVec3, Vec3};
+use glam::Vec3;
 
 use crate::lanes::{self, Mask8, Simd, U32x8, Vec3x8};
 
@@ -17,6 +17,9 @@ pub const MIRROR: u32 = 31;
 /// and what comes from the sky or from what hides it.
 pub const BOXES: usize = 0;
 pub const SKY: usize = 1;
+
+/// Of two things that tell how bright a pixel is, the one that is told as under open light.
+pub const OPEN: usize = 1;
 
 /// How many kinds of such light there are.
 pub const POOLS: usize = 2;
@@ -78,14 +81,14 @@ impl Outlook {
 
     /// What becomes of `light` that has this light in it, where there are such shares of what is open. (Light is cut
     /// where it is too bright, its parts are not.)
-    pub fn under(&self, light: DVec3, shares: &Shares) -> DVec3 {
-        let mut light = light;
-        for (Pool { came, open }, share) in self.pools.iter().zip(shares) {
-            if let Some(share) = share {
-                light = (light + (open * share - came).as_dvec3()).max(DVec3::ZERO);
-            }
-        }
-        light
+    pub fn under(&self, light: Vec3, shares: &Shares) -> Vec3 {
+        self.under_one(BOXES, self.under_one(SKY, light, shares), shares)
+    }
+
+    /// The same for one kind of light.
+    pub fn under_one(&self, kind: usize, light: Vec3, shares: &Shares) -> Vec3 {
+        let Pool { came, open } = self.pools[kind];
+        shares[kind].map_or(light, |share| (light + (open * share - came)).max(Vec3::ZERO))
     }
 
     /// What need not be asked again.

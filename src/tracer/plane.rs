@@ -41,10 +41,10 @@ impl<T: Copy + Send + Sync> Plane<T> {
     }
 
     /// The values at a pixel and the up to eight round it.
-    pub fn round(&self, [x, y]: Spot) -> impl Iterator<Item = T> {
+    pub fn round(&self, [x, y]: Spot) -> impl Iterator<Item = &T> {
         let columns = x.max(1) - 1..(x + 2).min(self.width);
         let rows = y.max(1) - 1..(y + 2).min(self.height);
-        rows.flat_map(move |row| columns.clone().map(move |column| self.at([column, row])))
+        rows.flat_map(move |row| columns.clone().map(move |column| self.value([column, row])))
     }
 
     pub fn set(&mut self, [x, y]: Spot, value: T) {
