@@ -5,28 +5,26 @@
 //! asked. What is found is never too little, and depends on neighbours; so it decides which questions are
 //! worth asking, and no answer.
 
-use glam::Vec3;
+use glam::{Vec3, Vec3A};
 use smallvec::SmallVec;
 
 use super::boxes::Aabb;
 use crate::lanes::{F32x8, LANES, Mask8, Simd, Vec3x8};
 
-/// How much larger a shaft is made at its two ends, in world units: more than rounding errors.
-const ROOM: [f32; 2] = [1e-3, 1e-2];
+/// How much larger a shaft is made at its two ends, in world units: more than rounding errors, but at its beginning
+/// less than what rays leave a surface by, or it would always meet what it leaves.
+const ROOM: [f32; 2] = [2e-5, 1e-2];
 
 /// All ways from a point of one box to one of another.
 pub struct Shaft {
-    /// By axis: one lower and one upper border, each where it begins, and what a step of 1 there brings in parts of
-    /// the whole way.
-    low: [Border; 3],
-    high: [Border; 3],
+    /// Of its lower borders and of its upper ones, by axis.
+    borders: [Borders; 2],
 }
 
-/// A border of a shaft along an axis.
-#[derive(Clone, Copy)]
-struct Border {
-    start: f32,
-    per_unit: f32,
+/// Where borders begin, and what a step of 1 along each axis brings in parts of the whole way.
+struct Borders {
+    start: Vec3A,
+    per_unit: Vec3A,
 }
 
 /// The numbers of few boxes among many.
@@ -39,17 +37,22 @@ pub struct Crowd {
 }
 
 impl Shaft {
+    #[inline(always)]
     pub fn new(from: &Aabb, to: &Aabb) -> Shaft {
-        let [start, end] = ROOM.map(Vec3::splat);
-        let (from, to) = ([from.min - start, from.max + start], [to.min - end, to.max + end]);
-        let border = |side: usize, axis: usize| {
-            let way = to[side][axis] - from[side][axis];
+        let [start, end] = ROOM;
+        let borders = |from: Vec3, to: Vec3| {
+            let (start, way) = (Vec3A::from(from), Vec3A::from(to - from));
             // Where it leads nowhere, steps are as good as endless.
-            let way = if way.abs() < 1e-6 { 1e-6 } else { way };
-            Border { start: from[side][axis], per_unit: 1.0 / way }
+            let least = Vec3A::splat(1e-6);
+            let way = Vec3A::select(way.abs().cmplt(least), least, way);
+            Borders { start, per_unit: Vec3A::ONE / way }
         };
-        let borders = |side: usize| [0, 1, 2].map(|axis| border(side, axis));
-        Shaft { low: borders(0), high: borders(1) }
+        Shaft {
+            borders: [
+                borders(from.min - start, to.min - end),
+                borders(from.max + start, to.max + end),
+            ],
+        }
     }
 }
 
@@ -111,19 +114,16 @@ impl Crowd {
 fn met<S: Simd>([min, max]: &[[[f32; LANES]; 3]; 2], shaft: &Shaft) -> Mask8<S> {
     let (mut enter, mut exit) = (F32x8::splat(0.0), F32x8::splat(1.0));
     for axis in 0..3 {
-        let Border { start, per_unit } = shaft.low[axis];
-        let part = (F32x8::load(&max[axis]) - F32x8::splat(start)) * F32x8::splat(per_unit);
-        if per_unit > 0.0 {
-            exit = exit.min(part);
-        } else {
-            enter = enter.max(part);
-        }
-        let Border { start, per_unit } = shaft.high[axis];
-        let part = (F32x8::load(&min[axis]) - F32x8::splat(start)) * F32x8::splat(per_unit);
-        if per_unit > 0.0 {
-            enter = enter.max(part);
-        } else {
-            exit = exit.min(part);
+        for (Borders { start, per_unit }, (edges, leaves)) in
+            shaft.borders.iter().zip([(max, true), (min, false)])
+        {
+            let per_unit = per_unit[axis];
+            let part = (F32x8::load(&edges[axis]) - F32x8::splat(start[axis])) * F32x8::splat(per_unit);
+            if (per_unit > 0.0) == leaves {
+                exit = exit.min(part);
+            } else {
+                enter = enter.max(part);
+            }
         }
     }
     enter.le(exit)
