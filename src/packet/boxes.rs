@@ -50,6 +50,15 @@ impl Aabb {
         Aabb { min: (bounds.min - margin).as_vec3(), max: (bounds.max + margin).as_vec3() }
     }
 
+    /// The box round some boxes; it holds nothing where there are none.
+    pub fn round(boxes: impl IntoIterator<Item = Aabb>) -> Aabb {
+        let nothing = Aabb { min: Vec3::INFINITY, max: Vec3::NEG_INFINITY };
+        boxes.into_iter().fold(nothing, |round, aabb| Aabb {
+            min: round.min.min(aabb.min),
+            max: round.max.max(aabb.max),
+        })
+    }
+
     pub fn bounds(&self) -> Bounds {
         Bounds { min: self.min.as_dvec3(), max: self.max.as_dvec3() }
     }

@@ -8,7 +8,7 @@ use super::ties::Ties8;
 use crate::geometry::Bounds;
 use crate::lanes::{F32x8, Mask8, Simd, Vec3x8};
 use crate::packet::Rays;
-use crate::packet::boxes::{Hierarchy, Way};
+use crate::packet::boxes::{Aabb, Hierarchy, Way};
 use crate::packet::shaft::{Crowd, Shaft};
 use crate::scene::Object;
 
@@ -16,7 +16,8 @@ use crate::scene::Object;
 pub struct Absent {
     bodies: Vec<(Members, Body)>,
     boxes: Hierarchy,
-    crowd: Crowd,
+    /// The box round all of them: to ask each takes longer than to ask the rays.
+    all: Crowd,
     pub are_transparent: bool,
 }
 
@@ -46,14 +47,14 @@ impl Absent {
         }
         let bounds: Vec<Bounds> = bodies.iter().map(|(_, body)| body.aabb.bounds()).collect();
         let are_transparent = bodies.iter().any(|(_, body)| body.is_transparent);
-        let crowd = Crowd::new(bodies.iter().map(|(_, body)| body.aabb));
-        Absent { bodies, boxes: Hierarchy::new(&bounds, 0.0), crowd, are_transparent }
+        let all = Aabb::round(bodies.iter().map(|(_, body)| body.aabb));
+        Absent { bodies, boxes: Hierarchy::new(&bounds, 0.0), all: Crowd::new([all]), are_transparent }
     }
 
     /// Whether ways in a shaft may meet any.
     #[inline(always)]
     pub fn may_be_in<S: Simd>(&self, shaft: &Shaft) -> bool {
-        self.crowd.is_met::<S>(shaft)
+        self.all.is_met::<S>(shaft)
     }
 
     /// Adds those that rays would meet, up to the distances `before`.

@@ -118,11 +118,9 @@ impl LightBox {
         let half = softbox.half.map(|side| side.as_vec3());
         let corner = |across: f64, along: f64| softbox.point((across, along)).as_vec3();
         let corners = [corner(0.0, 0.0), corner(0.0, 1.0), corner(1.0, 0.0), corner(1.0, 1.0)];
-        let min = corners.iter().fold(Vec3::INFINITY, |min, corner| min.min(*corner));
-        let max = corners.iter().fold(Vec3::NEG_INFINITY, |max, corner| max.max(*corner));
         LightBox {
             corners,
-            aabb: Aabb { min, max },
+            aabb: Aabb::round(corners.map(|corner| Aabb { min: corner, max: corner })),
             color: softbox.color.as_vec3(),
             center: softbox.center.as_vec3(),
             half,

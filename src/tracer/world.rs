@@ -128,8 +128,7 @@ impl<'a> World<'a> {
         let loose: Vec<Bounds> = world.loose.iter().map(bounds).collect();
         world.boxes = Hierarchy::new(&loose, 0.0);
         // What has none is never met there.
-        let nowhere = Aabb { min: Vec3::INFINITY, max: Vec3::NEG_INFINITY };
-        let ends = |body: &Body| if body.is_endless { nowhere } else { body.aabb };
+        let ends = |body: &Body| if body.is_endless { Aabb::round([]) } else { body.aabb };
         world.crowd = Crowd::new(world.bodies.iter().map(ends));
         world.absent = cast.map(|cast| {
             let others = (0..).zip(cast.members());
