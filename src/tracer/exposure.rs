@@ -17,11 +17,17 @@ pub const PLACE: u32 = 0;
 /// Where in the lens it does.
 pub const LENS: u32 = 1;
 
-/// No fewer samples are believed.
+/// No fewer samples are believed. With so many, pixels share out light between them.
 const FEWEST: u32 = 4;
+
+/// How far off, in pixels, others are whose first looks tell how much there is of light that is shared out.
+const REACH: u32 = 2;
 
 /// With so many times the first samples an error may be as great as the threshold.
 const ENOUGH: f32 = 1.25;
+
+/// What looks like what is beside it may err as if it had so many samples more.
+const PLAIN: f32 = 2.0;
 
 /// Pixels side by side whose brightness differs by more are looked at again: a hairline may have been
 /// missed in one of them.
@@ -88,8 +94,15 @@ pub struct Sum {
     /// How bright samples look as they are, and as of what is seen under one share of the softboxes' light.
     noises: [Noise; 2],
     outlook: Outlook,
-    /// How bright the first look at it is as it is, and as of what is seen under open light.
+    /// How bright the first look at it is under an open sky, and as of what is seen under open softboxes too.
     brightness: [f32; 2],
+    /// Whether that look asked for the sky: half of all pixels do, for the others too.
+    asks: bool,
+}
+
+/// Whether a pixel asks: two side by side, which make a packet, and not the two beside them.
+fn asks([x, y]: Spot) -> bool {
+    (x / 2 + y).is_multiple_of(2)
 }
 
 /// How much samples differ.
@@ -130,21 +143,11 @@ struct Plan {
     goes_on: bool,
 }
 
-/// What the later samples of a pixel go by.
+/// What samples of a pixel go by.
 struct Guide {
     known: Known,
-    /// Of open light the shares that their errors are as of; nothing where each asks for itself.
-    shares: Shares,
-}
-
-impl Guide {
-    fn new(own: &Sum, Plan { known, .. }: &Plan) -> Guide {
-        let mut shares = own.outlook.shares();
-        for (share, is_known) in shares.iter_mut().zip(known.pooled) {
-            *share = is_known.then(|| share.unwrap_or(Vec3::ONE));
-        }
-        Guide { known: *known, shares }
-    }
+    /// Of open light the shares that their errors are as of; where they are not known, those of the samples.
+    shares: Option<Shares>,
 }
 
 /// How bright light looks, 0 to 1: a square root is near enough.
@@ -179,6 +182,11 @@ impl Sizes {
         Sizes { few: few.max(FEWEST).min(most), first, most, error, has_lens }
     }
 
+    /// Whether pixels share out light.
+    fn share_out(&self) -> bool {
+        self.few == FEWEST
+    }
+
     /// How many samples side by side make a pixel's width, as far as textures are concerned.
     pub fn across(&self) -> f64 {
         f64::from(self.first).sqrt().min(4.0)
@@ -207,7 +215,8 @@ impl Sizes {
         }
         // What a lens blurs is made of few bright samples among many.
         let small = if self.has_lens { self.error / 2.0 } else { self.error };
-        error > small * sum.count as f32 / (ENOUGH * self.first as f32)
+        let count = sum.count as f32 + if differs { 0.0 } else { PLAIN };
+        error > small * count / (ENOUGH * self.first as f32)
     }
 }
 
@@ -232,7 +241,7 @@ impl<E: Eye<[Sample], Glimpse>> Exposure<E> {
         let mut samples = Vec::new();
         for pixel in some {
             let (spot, sum) = (spots[*pixel], &sums[*pixel]);
-            let known = guides.get(*pixel).map_or(Known::default(), |guide| guide.known);
+            let known = guides[*pixel].known;
             for index in sum.count..wanted(sum) {
                 samples.push(Sample { spot, index, is_centered, known });
             }
@@ -248,7 +257,8 @@ impl<E: Eye<[Sample], Glimpse>> Exposure<E> {
             let seen = &seen[range.clone()];
             // Errors are as of what is seen under one share of open light, since the pixel will show it under one: that
             // of its own first look is near enough.
-            let shares = guides.get(*pixel).map_or_else(|| shares(seen), |guide| guide.shares);
+            let Guide { known, shares: told } = &guides[*pixel];
+            let shares = told.unwrap_or_else(|| shares(seen, known));
             seen.iter().for_each(|glimpse| sum.add(glimpse, &shares, self.behind));
             if let (Some(ties), Some(each)) = (&mut ties, &each) {
                 ties[*pixel].add(&each[range].iter().collect());
@@ -257,30 +267,42 @@ impl<E: Eye<[Sample], Glimpse>> Exposure<E> {
         counts
     }
 
+    /// Of light that is shared out the shares round a pixel; from farther off those of the sky, which changes slowly.
+    fn shares(&self, spot: Spot, looks: &Plane<Sum>) -> Shares {
+        let mut around = Outlook::default();
+        looks.round(spot, 1).for_each(|there| around.pools[BOXES].add(&there.outlook.pools[BOXES]));
+        let reach = if self.sizes.share_out() { REACH } else { 1 };
+        let asking = looks.round(spot, reach).filter(|there| there.asks);
+        asking.for_each(|there| around.pools[SKY].add(&there.outlook.pools[SKY]));
+        around.shares()
+    }
+
     /// What first looks at a pixel and at those beside it tell.
-    fn plan(&self, spot: Spot, looks: &Plane<Sum>) -> Plan {
+    fn plan(&self, spot: Spot, looks: &Plane<Sum>) -> (Plan, Shares) {
         let own = looks.value(spot);
         let (mut around, mut free, mut hidden) = (Sum::default(), 0, 0);
         let mut differ = [false; 2];
-        for there in looks.round(spot) {
+        for there in looks.round(spot, 1) {
             free |= there.outlook.free & !there.outlook.hidden;
             hidden |= there.outlook.hidden & !there.outlook.free;
             around.merge(there);
-            for (differs, (there, own)) in
-                differ.iter_mut().zip(there.brightness.iter().zip(&own.brightness))
-            {
+            let pairs = there.brightness.iter().zip(&own.brightness);
+            for (differs, (there, own)) in differ.iter_mut().zip(pairs) {
                 *differs |= (there - own).abs() > CONTRAST;
             }
         }
+        let shares = self.shares(spot, looks);
         let mut known = around.outlook.known();
+        known.pooled = shares.map(|share| share.is_some());
         // Many samples of its own know an edge better. Where one pixel is lit and another is not there is an edge of
         // a shadow, which would be blurred.
         let is_edge = differ[OPEN] || free & hidden != 0;
-        known.pooled[BOXES] &= !is_edge && self.sizes.few <= FEWEST;
+        known.pooled[BOXES] &= !is_edge && self.sizes.share_out();
         let differs = differ[usize::from(known.pooled[BOXES])];
-        known.pooled[SKY] &= !differs || self.sizes.few <= FEWEST;
+        known.pooled[SKY] &= !differs || self.sizes.share_out();
         let plan = Plan { known, differs, goes_on: false };
-        Plan { goes_on: self.sizes.goes_on(own, &around, &plan), ..plan }
+        let goes_on = self.sizes.goes_on(own, &around, &plan);
+        (Plan { goes_on, ..plan }, shared(shares, &known))
     }
 
     /// What the samples show: their light through the tone curve, over the background.
@@ -321,12 +343,20 @@ impl<E: Eye<[Sample], Glimpse>> Painter for Exposure<E> {
 
     fn look(&self, spots: &[Spot], made: &mut Vec<Sum>, ties: Option<&mut Vec<Ties>>) -> RayCounts {
         made.resize(spots.len(), Sum::default());
-        let all: Vec<usize> = (0..spots.len()).collect();
         let ties = ties.map(|ties| {
             ties.resize(spots.len(), Ties::default());
             &mut ties[..]
         });
-        let counts = self.add(spots, &all, &[], |_| self.sizes.few, made, ties);
+        let guide = |sum: &mut Sum, spot: &Spot| {
+            sum.asks = asks(*spot) || !self.sizes.share_out();
+            let known = Known { pooled: [false, !sum.asks], ..Known::default() };
+            Guide { known, shares: None }
+        };
+        let guides: Vec<Guide> = made.iter_mut().zip(spots).map(|(sum, spot)| guide(sum, spot)).collect();
+        let mut all: Vec<usize> = (0..spots.len()).collect();
+        // Those that ask the same make full packets.
+        all.sort_by_key(|index| made[*index].asks);
+        let counts = self.add(spots, &all, &guides, |_| self.sizes.few, made, ties);
         made.iter_mut().for_each(|sum| sum.looked(self.behind));
         counts
     }
@@ -342,9 +372,12 @@ impl<E: Eye<[Sample], Glimpse>> Painter for Exposure<E> {
         let mut sums: Vec<Sum> = spots.iter().map(|spot| looks.at(*spot)).collect();
         let mut each = ties.as_ref().map(|_| vec![Ties::default(); spots.len()]);
         let mut counts = RayCounts::default();
-        let plans: Vec<Plan> = spots.iter().map(|spot| self.plan(*spot, looks)).collect();
-        let guides: Vec<Guide> =
-            sums.iter().zip(&plans).map(|(own, plan)| Guide::new(own, plan)).collect();
+        let (mut plans, mut guides) = (Vec::new(), Vec::new());
+        for spot in spots {
+            let (plan, shares) = self.plan(*spot, looks);
+            plans.push(plan);
+            guides.push(Guide { known: plan.known, shares: Some(shares) });
+        }
         let mut some: Vec<usize> = (0..spots.len()).filter(|index| plans[*index].goes_on).collect();
         // Those that ask the same make full packets.
         some.sort_by_key(|index| plans[*index].known.answered());
@@ -362,16 +395,20 @@ impl<E: Eye<[Sample], Glimpse>> Painter for Exposure<E> {
     }
 
     fn is_done(&self, spot: Spot, looks: &Plane<Sum>, work: &Exposed) -> bool {
-        self.plan(spot, looks) == work.plan
+        self.plan(spot, looks).0 == work.plan
     }
 
     /// Shares that its samples did not ask for are those of all first looks round the pixel together.
     fn finish(&self, spot: Spot, looks: &Plane<Sum>, work: &Exposed) -> Stored {
-        let mut around = Outlook::default();
+        let mut shares = Shares::default();
         if work.plan.known.pooled.contains(&true) {
-            looks.round(spot).for_each(|there| around.add(&there.outlook));
+            shares = self.shares(spot, looks);
         }
-        self.developed(work, &shared(around.shares(), &work.plan.known)).stored()
+        self.developed(work, &shared(shares, &work.plan.known)).stored()
+    }
+
+    fn reach(&self) -> u32 {
+        REACH
     }
 
     fn rays(&self) -> u64 {
@@ -379,11 +416,15 @@ impl<E: Eye<[Sample], Glimpse>> Painter for Exposure<E> {
     }
 }
 
-/// Of open light what there is of it in all samples together.
-fn shares(seen: &[Glimpse]) -> Shares {
+/// Of open light what there is of it in all samples together; all of it where they did not ask.
+fn shares(seen: &[Glimpse], known: &Known) -> Shares {
     let mut outlook = Outlook::default();
     seen.iter().for_each(|glimpse| outlook.add(&glimpse.outlook));
-    outlook.shares()
+    let mut shares = outlook.shares();
+    shares.iter_mut().zip(known.pooled).filter(|(_, is_known)| *is_known).for_each(|(share, _)| {
+        *share = Some(Vec3::ONE);
+    });
+    shares
 }
 
 impl Sum {
@@ -413,8 +454,10 @@ impl Sum {
         let ground = behind.unwrap_or(0.0) * (1.0 - cover);
         self.brightness = [ground; 2];
         if self.cover > 0.0 {
-            let open = self.outlook.under(self.light, &[Some(Vec3::ONE); POOLS]);
-            self.brightness = [self.light, open].map(|light| shown(light / self.cover) * cover + ground);
+            let all = [Some(Vec3::ONE); POOLS];
+            let own = self.outlook.under_one(SKY, self.light, &all);
+            let open = self.outlook.under_one(BOXES, own, &all);
+            self.brightness = [own, open].map(|light| shown(light / self.cover) * cover + ground);
         }
     }
 

@@ -77,12 +77,12 @@ impl Mask {
         self.tiles.iter_mut().zip(&other.tiles).for_each(|(tile, other)| *tile |= other);
     }
 
-    /// The set with all pixels round those of it.
-    pub fn grown(&self) -> Mask {
+    /// The set with all pixels round those of it, up to `reach` columns and rows away.
+    pub fn grown(&self, reach: u32) -> Mask {
         let mut grown = Mask::empty([self.width, self.height]);
         for [x, y] in self.spots() {
-            for row in y.max(1) - 1..(y + 2).min(self.height) {
-                for column in x.max(1) - 1..(x + 2).min(self.width) {
+            for row in y.saturating_sub(reach)..(y + reach + 1).min(self.height) {
+                for column in x.saturating_sub(reach)..(x + reach + 1).min(self.width) {
                     grown.add([column, row]);
                 }
             }
@@ -169,8 +169,8 @@ mod tests {
         mask.add([0, 0]);
         mask.add([4, 8]);
         let beside = |[x, y]: &Spot| (*x < 2 && *y < 2) || (x.abs_diff(4) < 2 && y.abs_diff(8) < 2);
-        assert_eq!(BTreeSet::from_iter(mask.grown().spots()), all().filter(beside).collect());
-        assert_eq!(mask.grown().tiles().collect::<Vec<_>>(), [0, 2]);
+        assert_eq!(BTreeSet::from_iter(mask.grown(1).spots()), all().filter(beside).collect());
+        assert_eq!(mask.grown(1).tiles().collect::<Vec<_>>(), [0, 2]);
     }
 
     #[test]

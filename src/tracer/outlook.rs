@@ -45,7 +45,8 @@ pub struct Pool {
 }
 
 impl Pool {
-    fn add(&mut self, other: &Pool) {
+    /// Adds what came to others.
+    pub fn add(&mut self, other: &Pool) {
         self.came += other.came;
         self.open += other.open;
     }

@@ -40,11 +40,14 @@ impl<T: Copy + Send + Sync> Plane<T> {
         &self.values
     }
 
-    /// The values at a pixel and the up to eight round it.
-    pub fn round(&self, [x, y]: Spot) -> impl Iterator<Item = &T> {
-        let columns = x.max(1) - 1..(x + 2).min(self.width);
-        let rows = y.max(1) - 1..(y + 2).min(self.height);
-        rows.flat_map(move |row| columns.clone().map(move |column| self.value([column, row])))
+    /// The values at a pixel and at those round it, up to `reach` columns and rows away.
+    pub fn round(&self, [x, y]: Spot, reach: u32) -> impl Iterator<Item = &T> {
+        let columns = x.saturating_sub(reach)..(x + reach + 1).min(self.width);
+        let rows = y.saturating_sub(reach)..(y + reach + 1).min(self.height);
+        rows.flat_map(move |row| {
+            let start = row as usize * self.width as usize;
+            self.values[start + columns.start as usize..start + columns.end as usize].iter()
+        })
     }
 
     pub fn set(&mut self, [x, y]: Spot, value: T) {
@@ -120,7 +123,8 @@ mod tests {
             count += u64::from(expected > 0);
         }
         assert_eq!(counts.primary, count);
-        assert_eq!(plane.round([0, 0]).count(), 4);
-        assert_eq!(plane.round([5, 20]).count(), 6);
+        assert_eq!(plane.round([0, 0], 1).count(), 4);
+        assert_eq!(plane.round([5, 20], 1).count(), 6);
+        assert_eq!(plane.round([11, 7], 2).count(), 20);
     }
 }

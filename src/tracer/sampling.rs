@@ -105,7 +105,7 @@ impl<E: Eye<Places, Seen> + Eye<Places, Shade>> Painter for Sampling<E> {
         };
         let differs = |spot: &Spot| {
             let here = looks.at(*spot);
-            looks.round(*spot).any(|there| there.footprint.differs(&here.footprint, threshold))
+            looks.round(*spot, 1).any(|there| there.footprint.differs(&here.footprint, threshold))
         };
         let more: Vec<bool> = spots.iter().map(differs).collect();
         let some: Vec<Spot> =
@@ -133,6 +133,10 @@ impl<E: Eye<Places, Seen> + Eye<Places, Shade>> Painter for Sampling<E> {
 
     fn finish(&self, _: Spot, _: &Plane<Seen>, work: &Stored) -> Stored {
         *work
+    }
+
+    fn reach(&self) -> u32 {
+        1
     }
 
     fn rays(&self) -> u64 {

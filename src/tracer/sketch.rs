@@ -44,6 +44,9 @@ pub trait Painter: Sync {
     /// What a pixel shows after that work.
     fn finish(&self, spot: Spot, looks: &Plane<Self::Look>, work: &Self::Work) -> Stored;
 
+    /// How far off, in columns and rows, pixels are whose first looks count for a pixel.
+    fn reach(&self) -> u32;
+
     /// Rays that a pixel counts for where no body can be.
     fn rays(&self) -> u64;
 }
@@ -110,7 +113,7 @@ impl<L: Copy + Send + Sync, W: Copy + Send + Sync> Sketch<L, W> {
         painter: &impl Painter<Look = L, Work = W>,
         changed: &Ties,
     ) -> (Mask, RayCounts) {
-        let stale = self.stale(changed);
+        let stale = self.stale(changed, painter.reach());
         let counts = self.paint(painter, &stale, true);
         (stale.all, counts)
     }
@@ -121,7 +124,7 @@ impl<L: Copy + Send + Sync, W: Copy + Send + Sync> Sketch<L, W> {
         painter: &impl Painter<Look = L, Work = W>,
         over: &Ties,
     ) -> (Overlay, RayCounts) {
-        let stale = self.stale(over);
+        let stale = self.stale(over, painter.reach());
         let (looks, picture) = (stale.looks.values(&self.looks), stale.all.values(&self.picture));
         let works = self.kept.as_ref().map(|kept| stale.all.values(&kept.works));
         let counts = self.paint(painter, &stale, false);
@@ -135,7 +138,7 @@ impl<L: Copy + Send + Sync, W: Copy + Send + Sync> Sketch<L, W> {
     }
 
     /// The pixels that depend on `changed`; all where that is not kept.
-    fn stale(&self, changed: &Ties) -> Stale {
+    fn stale(&self, changed: &Ties, reach: u32) -> Stale {
         let Some(Kept { ties: [first, rest], .. }) = &self.kept else {
             let full = |width, height| Mask::full([width, height]);
             let all = || full(self.picture.width, self.picture.height);
@@ -146,7 +149,7 @@ impl<L: Copy + Send + Sync, W: Copy + Send + Sync> Sketch<L, W> {
         let mut all = works.clone();
         if !looks.is_empty() {
             works.add_all(&looks);
-            all.add_all(&looks.grown());
+            all.add_all(&looks.grown(reach));
         }
         Stale { looks, works, all }
     }
