@@ -33,7 +33,7 @@ impl<S: Simd> Way<S> {
 }
 
 /// A box along the axes, a little larger than what it holds.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub struct Aabb {
     pub min: Vec3,
     pub max: Vec3,
