@@ -183,7 +183,7 @@ mod tests {
         assert_eq!(up(9.0), [4, 5]);
         assert!(up(-3.0).is_empty() && up(30.0).is_empty());
         assert!(among(&cube(0.0, 2.0), &cube(18.0, 3.0)).is_empty());
-        assert_eq!(among(&cube(0.0, -2.0), &cube(18.0, 3.0)), [3, 4, 5, 6]);
+        assert_eq!(among(&cube(0.0, -2.0), &cube(18.0, 3.0)), [2, 3, 4, 5]);
         assert_eq!(round(Vec3x8::<Plain>::zero(), Mask8::first(2)).max, Vec3::ZERO);
     }
 }

@@ -146,8 +146,22 @@ struct Plan {
 /// What samples of a pixel go by.
 struct Guide {
     known: Known,
-    /// Of open light the shares that their errors are as of; where they are not known, those of the samples.
+    /// Of open light the shares that their errors are as of; in first looks, those of the samples themselves.
     shares: Option<Shares>,
+}
+
+impl Guide {
+    /// For the first look, at a pixel that `asks` for the sky or does not.
+    fn first(asks: bool) -> Guide {
+        let known = Known { pooled: [false, !asks], ..Known::default() };
+        Guide { known, shares: None }
+    }
+
+    /// For later samples. Their errors are as of what the first look saw, not of what those beside it did: the work
+    /// depends on these by its plan alone.
+    fn later(own: &Sum, Plan { known, .. }: &Plan) -> Guide {
+        Guide { known: *known, shares: Some(shared(own_shares(&own.outlook, own.asks), known)) }
+    }
 }
 
 /// How bright light looks, 0 to 1: a square root is near enough.
@@ -155,12 +169,21 @@ fn shown(light: Vec3) -> f32 {
     ((light.x + light.y + light.z) * (1.0 / 3.0)).clamp(0.0, 1.0).sqrt()
 }
 
-/// The shares of light that pixels share out; none of what they do not.
+/// Of open light what samples of a pixel saw of it; all of the sky's where they did not ask.
+fn own_shares(outlook: &Outlook, asks: bool) -> Shares {
+    let mut shares = outlook.shares();
+    if !asks {
+        shares[SKY] = Some(Vec3::ONE);
+    }
+    shares
+}
+
+/// The shares of light that pixels share out, all of it where nobody asked; none of what they do not share.
 fn shared(shares: Shares, known: &Known) -> Shares {
     let mut shares = shares;
-    shares.iter_mut().zip(known.pooled).for_each(|(share, is_shared)| {
-        share.take_if(|_| !is_shared);
-    });
+    for (share, is_shared) in shares.iter_mut().zip(known.pooled) {
+        *share = is_shared.then(|| share.unwrap_or(Vec3::ONE));
+    }
     shares
 }
 
@@ -257,8 +280,11 @@ impl<E: Eye<[Sample], Glimpse>> Exposure<E> {
             let seen = &seen[range.clone()];
             // Errors are as of what is seen under one share of open light, since the pixel will show it under one: that
             // of its own first look is near enough.
-            let Guide { known, shares: told } = &guides[*pixel];
-            let shares = told.unwrap_or_else(|| shares(seen, known));
+            let shares = guides[*pixel].shares.unwrap_or_else(|| {
+                let mut outlook = Outlook::default();
+                seen.iter().for_each(|glimpse| outlook.add(&glimpse.outlook));
+                own_shares(&outlook, sum.asks)
+            });
             seen.iter().for_each(|glimpse| sum.add(glimpse, &shares, self.behind));
             if let (Some(ties), Some(each)) = (&mut ties, &each) {
                 ties[*pixel].add(&each[range].iter().collect());
@@ -278,7 +304,7 @@ impl<E: Eye<[Sample], Glimpse>> Exposure<E> {
     }
 
     /// What first looks at a pixel and at those beside it tell.
-    fn plan(&self, spot: Spot, looks: &Plane<Sum>) -> (Plan, Shares) {
+    fn plan(&self, spot: Spot, looks: &Plane<Sum>) -> Plan {
         let own = looks.value(spot);
         let (mut around, mut free, mut hidden) = (Sum::default(), 0, 0);
         let mut differ = [false; 2];
@@ -291,9 +317,8 @@ impl<E: Eye<[Sample], Glimpse>> Exposure<E> {
                 *differs |= (there - own).abs() > CONTRAST;
             }
         }
-        let shares = self.shares(spot, looks);
+        // Of what nobody asked for there is nothing to share out.
         let mut known = around.outlook.known();
-        known.pooled = shares.map(|share| share.is_some());
         // Many samples of its own know an edge better. Where one pixel is lit and another is not there is an edge of
         // a shadow, which would be blurred.
         let is_edge = differ[OPEN] || free & hidden != 0;
@@ -301,8 +326,7 @@ impl<E: Eye<[Sample], Glimpse>> Exposure<E> {
         let differs = differ[usize::from(known.pooled[BOXES])];
         known.pooled[SKY] &= !differs || self.sizes.share_out();
         let plan = Plan { known, differs, goes_on: false };
-        let goes_on = self.sizes.goes_on(own, &around, &plan);
-        (Plan { goes_on, ..plan }, shared(shares, &known))
+        Plan { goes_on: self.sizes.goes_on(own, &around, &plan), ..plan }
     }
 
     /// What the samples show: their light through the tone curve, over the background.
@@ -347,12 +371,10 @@ impl<E: Eye<[Sample], Glimpse>> Painter for Exposure<E> {
             ties.resize(spots.len(), Ties::default());
             &mut ties[..]
         });
-        let guide = |sum: &mut Sum, spot: &Spot| {
+        for (sum, spot) in made.iter_mut().zip(spots) {
             sum.asks = asks(*spot) || !self.sizes.share_out();
-            let known = Known { pooled: [false, !sum.asks], ..Known::default() };
-            Guide { known, shares: None }
-        };
-        let guides: Vec<Guide> = made.iter_mut().zip(spots).map(|(sum, spot)| guide(sum, spot)).collect();
+        }
+        let guides: Vec<Guide> = made.iter().map(|sum| Guide::first(sum.asks)).collect();
         let mut all: Vec<usize> = (0..spots.len()).collect();
         // Those that ask the same make full packets.
         all.sort_by_key(|index| made[*index].asks);
@@ -372,12 +394,9 @@ impl<E: Eye<[Sample], Glimpse>> Painter for Exposure<E> {
         let mut sums: Vec<Sum> = spots.iter().map(|spot| looks.at(*spot)).collect();
         let mut each = ties.as_ref().map(|_| vec![Ties::default(); spots.len()]);
         let mut counts = RayCounts::default();
-        let (mut plans, mut guides) = (Vec::new(), Vec::new());
-        for spot in spots {
-            let (plan, shares) = self.plan(*spot, looks);
-            plans.push(plan);
-            guides.push(Guide { known: plan.known, shares: Some(shares) });
-        }
+        let plans: Vec<Plan> = spots.iter().map(|spot| self.plan(*spot, looks)).collect();
+        let guides: Vec<Guide> =
+            sums.iter().zip(&plans).map(|(own, plan)| Guide::later(own, plan)).collect();
         let mut some: Vec<usize> = (0..spots.len()).filter(|index| plans[*index].goes_on).collect();
         // Those that ask the same make full packets.
         some.sort_by_key(|index| plans[*index].known.answered());
@@ -395,7 +414,7 @@ impl<E: Eye<[Sample], Glimpse>> Painter for Exposure<E> {
     }
 
     fn is_done(&self, spot: Spot, looks: &Plane<Sum>, work: &Exposed) -> bool {
-        self.plan(spot, looks).0 == work.plan
+        self.plan(spot, looks) == work.plan
     }
 
     /// Shares that its samples did not ask for are those of all first looks round the pixel together.
@@ -414,17 +433,6 @@ impl<E: Eye<[Sample], Glimpse>> Painter for Exposure<E> {
     fn rays(&self) -> u64 {
         self.sizes.few.into()
     }
-}
-
-/// Of open light what there is of it in all samples together; all of it where they did not ask.
-fn shares(seen: &[Glimpse], known: &Known) -> Shares {
-    let mut outlook = Outlook::default();
-    seen.iter().for_each(|glimpse| outlook.add(&glimpse.outlook));
-    let mut shares = outlook.shares();
-    shares.iter_mut().zip(known.pooled).filter(|(_, is_known)| *is_known).for_each(|(share, _)| {
-        *share = Some(Vec3::ONE);
-    });
-    shares
 }
 
 impl Sum {
