@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use super::eye::Eye;
-use super::outlook::{BOXES, Known, OPEN, Outlook, POOLS, Pool, SKY, Shares};
+use super::outlook::{BOXES, Known, OPEN, Outlook, POOLS, SKY, Shares};
 use super::pixel::{Pixel, Stored};
 use super::plane::{Plane, Spot};
 use super::sketch::Painter;
@@ -25,6 +25,9 @@ const REACH: u32 = 2;
 
 /// With so many times the first samples an error may be as great as the threshold.
 const ENOUGH: f32 = 1.25;
+
+/// What looks like what is beside it may err as if it had so many samples more.
+const PLAIN: f32 = 2.0;
 
 /// Pixels side by side whose brightness differs by more are looked at again: a hairline may have been
 /// missed in one of them.
@@ -51,21 +54,12 @@ pub struct Glimpse {
     pub light: Vec3,
     /// How much of the background it hides, 0 to 1.
     pub cover: f32,
-    /// Whether it met something that has an end.
-    pub meets_body: bool,
     pub outlook: Outlook,
 }
 
 impl Glimpse {
-    pub fn new(light: Vec3, cover: f32, meets_body: bool, outlook: Outlook) -> Glimpse {
-        Glimpse { light: light.min(Vec3::splat(BRIGHTEST)), cover, meets_body, outlook }
-    }
-
-    /// Sees such a share of the sky, which was not asked for.
-    fn take_sky(&mut self, shares: &Shares) {
-        let Pool { came, open } = &mut self.outlook.pools[SKY];
-        *came = *open * shares[SKY].unwrap_or(Vec3::ONE);
-        self.light += *came;
+    pub fn new(light: Vec3, cover: f32, outlook: Outlook) -> Glimpse {
+        Glimpse { light: light.min(Vec3::splat(BRIGHTEST)), cover, outlook }
     }
 }
 
@@ -80,10 +74,7 @@ pub struct Exposure<E> {
 
 /// How many samples pixels get.
 pub struct Sizes {
-    /// Of a pixel to begin with: where nothing with an end is seen, those that ask for the sky, and elsewhere; of one
-    /// that is not as simple as it seems; and at most.
-    fewest: u32,
-    half: u32,
+    /// Of a pixel to begin with, of one that is not as simple as it seems, and at most.
     few: u32,
     first: u32,
     most: u32,
@@ -103,10 +94,15 @@ pub struct Sum {
     /// How bright samples look as they are, and as of what is seen under one share of the softboxes' light.
     noises: [Noise; 2],
     outlook: Outlook,
-    /// How bright the first look at it is as it is, and as of what is seen under open light.
+    /// How bright the first look at it is under an open sky, and as of what is seen under open softboxes too.
     brightness: [f32; 2],
-    /// Whether any sample met something that has an end.
-    meets_body: bool,
+    /// Whether that look asked for the sky: half of all pixels do, for the others too.
+    asks: bool,
+}
+
+/// Whether a pixel asks: two side by side, which make a packet, and not the two beside them.
+fn asks([x, y]: Spot) -> bool {
+    (x / 2 + y).is_multiple_of(2)
 }
 
 /// How much samples differ.
@@ -152,34 +148,34 @@ struct Guide {
     known: Known,
     /// Of open light the shares that their errors are as of; in first looks, those of the samples themselves.
     shares: Option<Shares>,
-    /// Whether they are given their share of the sky, rather than the pixel as a whole.
-    is_told: bool,
 }
 
 impl Guide {
-    /// For samples that ask everything.
-    fn asking() -> Guide {
-        Guide { known: Known::default(), shares: None, is_told: false }
-    }
-
-    /// For samples that see as much of the sky as those did that were first.
-    fn told(first: &Sum) -> Guide {
-        let known = Known { pooled: [false, true], ..Known::default() };
-        let mut shares = first.outlook.shares();
-        shares[SKY] = shares[SKY].or(Some(Vec3::ONE));
-        Guide { known, shares: Some(shares), is_told: true }
+    /// For the first look, at a pixel that `asks` for the sky or does not.
+    fn first(asks: bool) -> Guide {
+        let known = Known { pooled: [false, !asks], ..Known::default() };
+        Guide { known, shares: None }
     }
 
     /// For later samples. Their errors are as of what the first look saw, not of what those beside it did: the work
     /// depends on these by its plan alone.
     fn later(own: &Sum, Plan { known, .. }: &Plan) -> Guide {
-        Guide { known: *known, shares: Some(shared(own.outlook.shares(), known)), is_told: false }
+        Guide { known: *known, shares: Some(shared(own_shares(&own.outlook, own.asks), known)) }
     }
 }
 
 /// How bright light looks, 0 to 1: a square root is near enough.
 fn shown(light: Vec3) -> f32 {
     ((light.x + light.y + light.z) * (1.0 / 3.0)).clamp(0.0, 1.0).sqrt()
+}
+
+/// Of open light what samples of a pixel saw of it; all of the sky's where they did not ask.
+fn own_shares(outlook: &Outlook, asks: bool) -> Shares {
+    let mut shares = outlook.shares();
+    if !asks {
+        shares[SKY] = Some(Vec3::ONE);
+    }
+    shares
 }
 
 /// The shares of light that pixels share out, all of it where nobody asked; none of what they do not share.
@@ -206,10 +202,7 @@ impl Sizes {
         };
         let has_lens = scene.camera.has_lens();
         let few = if has_lens { first } else { first / 4 };
-        let few = few.max(FEWEST).min(most);
-        let half = if few == FEWEST { few / 2 } else { few };
-        let fewest = if few < first { half } else { few };
-        Sizes { fewest, half, few, first, most, error, has_lens }
+        Sizes { few: few.max(FEWEST).min(most), first, most, error, has_lens }
     }
 
     /// Whether pixels share out light.
@@ -245,7 +238,8 @@ impl Sizes {
         }
         // What a lens blurs is made of few bright samples among many.
         let small = if self.has_lens { self.error / 2.0 } else { self.error };
-        error > small * sum.count as f32 / (ENOUGH * self.first as f32)
+        let count = sum.count as f32 + if differs { 0.0 } else { PLAIN };
+        error > small * count / (ENOUGH * self.first as f32)
     }
 }
 
@@ -289,16 +283,9 @@ impl<E: Eye<[Sample], Glimpse>> Exposure<E> {
             let shares = guides[*pixel].shares.unwrap_or_else(|| {
                 let mut outlook = Outlook::default();
                 seen.iter().for_each(|glimpse| outlook.add(&glimpse.outlook));
-                outlook.shares()
+                own_shares(&outlook, sum.asks)
             });
-            let is_told = guides[*pixel].is_told;
-            for glimpse in seen {
-                let mut glimpse = *glimpse;
-                if is_told {
-                    glimpse.take_sky(&shares);
-                }
-                sum.add(&glimpse, &shares, self.behind);
-            }
+            seen.iter().for_each(|glimpse| sum.add(glimpse, &shares, self.behind));
             if let (Some(ties), Some(each)) = (&mut ties, &each) {
                 ties[*pixel].add(&each[range].iter().collect());
             }
@@ -311,8 +298,8 @@ impl<E: Eye<[Sample], Glimpse>> Exposure<E> {
         let mut around = Outlook::default();
         looks.round(spot, 1).for_each(|there| around.pools[BOXES].add(&there.outlook.pools[BOXES]));
         let reach = if self.sizes.share_out() { REACH } else { 1 };
-        let skies = looks.round(spot, reach).map(|there| &there.outlook.pools[SKY]);
-        skies.for_each(|sky| around.pools[SKY].add(sky));
+        let asking = looks.round(spot, reach).filter(|there| there.asks);
+        asking.for_each(|there| around.pools[SKY].add(&there.outlook.pools[SKY]));
         around.shares()
     }
 
@@ -368,7 +355,7 @@ impl<E: Eye<[Sample], Glimpse>> Painter for Exposure<E> {
     fn nothing(&self) -> (Sum, Exposed, Stored) {
         let mut nothing = Sum::default();
         let none = [None; POOLS];
-        (0..self.sizes.fewest).for_each(|_| nothing.add(&Glimpse::default(), &none, self.behind));
+        (0..self.sizes.few).for_each(|_| nothing.add(&Glimpse::default(), &none, self.behind));
         nothing.looked(self.behind);
         let exposed = Exposed::new(&nothing, Plan::default());
         (nothing, exposed, self.developed(&exposed, &none).stored())
@@ -384,17 +371,14 @@ impl<E: Eye<[Sample], Glimpse>> Painter for Exposure<E> {
             ties.resize(spots.len(), Ties::default());
             &mut ties[..]
         });
-        let Sizes { fewest, half, few, .. } = self.sizes;
-        let (mut ties, mut counts) = (ties, RayCounts::default());
-        let mut some: Vec<usize> = (0..spots.len()).collect();
-        let mut guides: Vec<Guide> = spots.iter().map(|_| Guide::asking()).collect();
-        counts = counts + self.add(spots, &some, &guides, |_| half, made, ties.as_deref_mut());
-        if half < few {
-            // The other half need not ask for the sky; and what has no end has no edges.
-            some.retain(|index| made[*index].meets_body || fewest == few);
-            guides = made.iter().map(Guide::told).collect();
-            counts = counts + self.add(spots, &some, &guides, |_| few, made, ties);
+        for (sum, spot) in made.iter_mut().zip(spots) {
+            sum.asks = asks(*spot) || !self.sizes.share_out();
         }
+        let guides: Vec<Guide> = made.iter().map(|sum| Guide::first(sum.asks)).collect();
+        let mut all: Vec<usize> = (0..spots.len()).collect();
+        // Those that ask the same make full packets.
+        all.sort_by_key(|index| made[*index].asks);
+        let counts = self.add(spots, &all, &guides, |_| self.sizes.few, made, ties);
         made.iter_mut().for_each(|sum| sum.looked(self.behind));
         counts
     }
@@ -447,7 +431,7 @@ impl<E: Eye<[Sample], Glimpse>> Painter for Exposure<E> {
     }
 
     fn rays(&self) -> u64 {
-        self.sizes.fewest.into()
+        self.sizes.few.into()
     }
 }
 
@@ -455,7 +439,7 @@ impl Sum {
     /// Adds a sample, before a background that looks as bright as `behind`. Its error is as of what is seen
     /// under such `shares` of open light.
     fn add(&mut self, glimpse: &Glimpse, shares: &Shares, behind: Option<f32>) {
-        let Glimpse { light, cover, meets_body, mut outlook } = *glimpse;
+        let Glimpse { light, cover, mut outlook } = *glimpse;
         let ground = behind.unwrap_or(0.0) * (1.0 - cover);
         let own = outlook.under_one(SKY, light, shares);
         let one = outlook.under_one(BOXES, own, shares);
@@ -464,7 +448,6 @@ impl Sum {
         self.noises[1].add(if one == own { bright } else { shown(one) * cover + ground });
         outlook.weigh(Vec3::splat(cover));
         self.outlook.add(&outlook);
-        self.meets_body |= meets_body;
         self.count += 1;
         self.light += light * cover;
         self.cover += cover;
@@ -479,8 +462,10 @@ impl Sum {
         let ground = behind.unwrap_or(0.0) * (1.0 - cover);
         self.brightness = [ground; 2];
         if self.cover > 0.0 {
-            let open = self.outlook.under(self.light, &[Some(Vec3::ONE); POOLS]);
-            self.brightness = [self.light, open].map(|light| shown(light / self.cover) * cover + ground);
+            let all = [Some(Vec3::ONE); POOLS];
+            let own = self.outlook.under_one(SKY, self.light, &all);
+            let open = self.outlook.under_one(BOXES, own, &all);
+            self.brightness = [own, open].map(|light| shown(light / self.cover) * cover + ground);
         }
     }
 

@@ -89,7 +89,7 @@ impl<'a> Studio<'a> {
         let body = &self.world.scene.objects[object].body;
         let is_endless = !body.bounds().is_finite();
         let cover = if is_endless { 1.0 - melted(ray.at(hit.t)) } else { 1.0 };
-        Glimpse::new(light.as_vec3(), cover as f32, !is_endless, draw.outlook)
+        Glimpse::new(light.as_vec3(), cover as f32, draw.outlook)
     }
 
     fn nearest(&self, ray: &Ray) -> Option<(usize, Hit)> {

@@ -195,15 +195,11 @@ impl<'a> Studio<'a> {
         if endless.any() {
             cover = (hit & endless).select(one - melted(rays.at(meeting.t)), cover);
         }
-        let meets_body = hit.but(endless).bits();
         let (light, cover, hit) = (light.rows(), cover.store(), hit.bits());
         let outlooks = draw.outlooks.rows();
         let glimpse = |lane: usize| match hit >> lane & 1 {
             0 => Glimpse::default(),
-            _ => {
-                let meets_body = meets_body >> lane & 1 == 1;
-                Glimpse::new(light.lane(lane), cover[lane], meets_body, outlooks.lane(lane))
-            }
+            _ => Glimpse::new(light.lane(lane), cover[lane], outlooks.lane(lane)),
         };
         seen.extend((0..samples.len()).map(glimpse));
         draw.tell(samples.len(), ties);
