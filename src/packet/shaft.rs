@@ -118,7 +118,8 @@ fn met<S: Simd>([min, max]: &[[[f32; LANES]; 3]; 2], shaft: &Shaft) -> Mask8<S> 
             shaft.borders.iter().zip([(max, true), (min, false)])
         {
             let per_unit = per_unit[axis];
-            let part = (F32x8::load(&edges[axis]) - F32x8::splat(start[axis])) * F32x8::splat(per_unit);
+            let part =
+                (F32x8::load(&edges[axis]) - F32x8::splat(start[axis])) * F32x8::splat(per_unit);
             if (per_unit > 0.0) == leaves {
                 exit = exit.min(part);
             } else {
@@ -142,8 +143,10 @@ mod tests {
     fn aabb() -> impl Strategy<Value = Aabb> {
         let place = || prop_oneof![-9.0..9.0_f32, Just(0.0), Just(2.0)];
         let size = || prop_oneof![0.0..5.0_f32, Just(0.0)];
-        ([place(), place(), place()], [size(), size(), size()])
-            .prop_map(|(min, size)| Aabb { min: min.into(), max: Vec3::from(min) + Vec3::from(size) })
+        ([place(), place(), place()], [size(), size(), size()]).prop_map(|(min, size)| Aabb {
+            min: min.into(),
+            max: Vec3::from(min) + Vec3::from(size),
+        })
     }
 
     proptest! {
@@ -175,7 +178,10 @@ mod tests {
 
     #[test]
     fn an_empty_shaft_meets_nothing() {
-        let cube = |x: f32, y: f32| Aabb { min: Vec3::new(x, y, 0.0), max: Vec3::new(x + 1.0, y + 1.0, 1.0) };
+        let cube = |x: f32, y: f32| Aabb {
+            min: Vec3::new(x, y, 0.0),
+            max: Vec3::new(x + 1.0, y + 1.0, 1.0),
+        };
         let crowd = Crowd::new((0..10).map(|number| cube(2.0 * number as f32, 0.0)));
         let among = |from: &Aabb, to: &Aabb| crowd.among::<Plain>(&Shaft::new(from, to)).to_vec();
         let up = |x: f32| among(&cube(x, -3.0), &cube(x, 3.0));

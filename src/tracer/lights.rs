@@ -208,11 +208,7 @@ impl LightBox {
 /// Whether all of a rectangle, its middle at the end of `way`, lies above the horizon of `normal`, and whether any
 /// of it may.
 #[inline(always)]
-fn above<S: Simd>(
-    normal: Vec3x8<S>,
-    way: Vec3x8<S>,
-    [a, b]: &[Vec3x8<S>; 2],
-) -> [Mask8<S>; 2] {
+fn above<S: Simd>(normal: Vec3x8<S>, way: Vec3x8<S>, [a, b]: &[Vec3x8<S>; 2]) -> [Mask8<S>; 2] {
     let (middle, spread) = (normal.dot(way), normal.dot(*a).abs() + normal.dot(*b).abs());
     [middle.gt(spread), middle.gt(-spread)]
 }

@@ -271,7 +271,9 @@ impl<'a> World<'a> {
                 if !self.transparent.is_empty() {
                     share = self.dimmed(rays, distance, open, ties);
                 }
-                if let (Some(ties), Some(absent), true) = (ties, &self.absent, between.is_any_absent) {
+                if let (Some(ties), Some(absent), true) =
+                    (ties, &self.absent, between.is_any_absent)
+                {
                     absent.would_block(&self.materials, rays, distance, open, ties);
                 }
                 share
