@@ -52,6 +52,15 @@ impl Simd for Avx2 {
         f_select(mask: __m256, yes: __m256, no: __m256) -> __m256 = _mm256_blendv_ps(no, yes, mask);
         f_bits(a: __m256) -> __m256i = _mm256_castps_si256(a);
         f_to_i32(a: __m256) -> __m256i = _mm256_cvttps_epi32(a);
+        f_range(a: __m256) -> [f32; 2] = {
+            let (low, high) = (_mm256_castps256_ps128(a), _mm256_extractf128_ps::<1>(a));
+            let (least, greatest) = (_mm_min_ps(low, high), _mm_max_ps(low, high));
+            let least = _mm_min_ps(least, _mm_movehl_ps(least, least));
+            let greatest = _mm_max_ps(greatest, _mm_movehl_ps(greatest, greatest));
+            let least = _mm_min_ss(least, _mm_shuffle_ps::<1>(least, least));
+            let greatest = _mm_max_ss(greatest, _mm_shuffle_ps::<1>(greatest, greatest));
+            [_mm_cvtss_f32(least), _mm_cvtss_f32(greatest)]
+        };
         u_splat(x: u32) -> __m256i = _mm256_set1_epi32(x as i32);
         u_load(x: &[u32; 8]) -> __m256i = _mm256_loadu_si256(x.as_ptr().cast());
         u_add(a: __m256i, b: __m256i) -> __m256i = _mm256_add_epi32(a, b);

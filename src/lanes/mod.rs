@@ -68,6 +68,17 @@ pub trait Simd: Copy + Send + Sync + 'static {
     /// Towards zero; what is no `i32` becomes the least one.
     fn f_to_i32(a: Self::F) -> Self::U;
     fn f_gather(table: &[f32], index: Self::U) -> Self::F;
+    /// The least and the greatest number of all lanes, which must be numbers.
+    #[inline(always)]
+    fn f_range(a: Self::F) -> [f32; 2] {
+        let numbers = Self::f_store(a);
+        let [mut least, mut greatest] = [numbers[0]; 2];
+        for number in numbers {
+            least = if number < least { number } else { least };
+            greatest = if number > greatest { number } else { greatest };
+        }
+        [least, greatest]
+    }
 
     fn u_splat(x: u32) -> Self::U;
     fn u_load(x: &[u32; 8]) -> Self::U;
@@ -336,6 +347,12 @@ impl<S: Simd> F32x8<S> {
     #[inline(always)]
     pub fn to_i32(self) -> U32x8<S> {
         U32x8(S::f_to_i32(self.0))
+    }
+
+    /// The least and the greatest number of all lanes, which must be numbers.
+    #[inline(always)]
+    pub fn range(self) -> [f32; 2] {
+        S::f_range(self.0)
     }
 
     /// Numbers of a table, each at its own index, which must be within it.

@@ -56,18 +56,17 @@ impl Shaft {
     }
 }
 
-/// The smallest box round some points; one of nothing where there are none.
+/// The smallest box round points of some lanes; one of nothing where there are none.
 #[inline(always)]
 pub fn round<S: Simd>(points: Vec3x8<S>, lanes: Mask8<S>) -> Aabb {
-    let [mut min, mut max] = [Vec3::INFINITY, Vec3::NEG_INFINITY];
-    let rows = points.rows();
-    let mut left = lanes.bits();
-    while left != 0 {
-        let point = rows.lane(left.trailing_zeros() as usize);
-        (min, max) = (min.min(point), max.max(point));
-        left &= left - 1;
+    if !lanes.any() {
+        return Aabb::round([]);
     }
-    Aabb { min, max }
+    // Lanes that do not count are as one that does.
+    let one = points.rows().lane(lanes.bits().trailing_zeros() as usize);
+    let points = Vec3x8::select(lanes, points, Vec3x8::splat(one));
+    let [x, y, z] = [points.x.range(), points.y.range(), points.z.range()];
+    Aabb { min: Vec3::new(x[0], y[0], z[0]), max: Vec3::new(x[1], y[1], z[1]) }
 }
 
 impl Crowd {

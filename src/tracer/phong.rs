@@ -156,7 +156,7 @@ impl<'a> Phong<'a> {
             || {
                 let Flight { rays, lanes, .. } = flight;
                 let (world, scene) = (&self.world, self.world.scene);
-                let meeting = world.nearest(
+                let meeting = world.nearest_together(
                     rays,
                     F32x8::splat(scene.max_distance as f32),
                     *lanes,

@@ -22,7 +22,11 @@ pub type Stored = [u8; 4];
 impl Pixel {
     /// As a picture stores it; the colour of what is hardly there is that of what is there.
     pub fn stored(self) -> Stored {
-        let color = if self.cover > 0.0 { self.color / self.cover } else { Rgb::ZERO };
+        let color = match self.cover {
+            1.0 => self.color,
+            0.0 => Rgb::ZERO,
+            cover => self.color / cover,
+        };
         let [red, green, blue] = color.to_array().map(byte);
         [red, green, blue, byte(self.cover)]
     }

@@ -10,7 +10,7 @@ use super::plane::{Plane, Spot};
 use super::sketch::Painter;
 use super::ties::Ties;
 use super::{Antialiasing, RayCounts};
-use crate::scene::Scene;
+use crate::scene::{Rgb, Scene};
 
 /// Paints what an eye sees.
 pub struct Sampling<E> {
@@ -52,9 +52,14 @@ impl<E: Eye<Places, Seen> + Eye<Places, Shade>> Sampling<E> {
         let mut seen: Vec<Shade> = Vec::with_capacity(spots.len() * parts);
         let mut each = ties.is_some().then(Vec::new);
         let counts = self.eye.see(&Places::new(spots, side), &mut seen, each.as_mut());
+        let count = f64::from(side * side);
         made.extend(seen.chunks_exact(parts).map(|seen| {
-            let sum = seen.iter().fold(Pixel::default(), |sum, seen| sum + self.pixel(seen));
-            (sum / f64::from(side * side)).stored()
+            if self.is_transparent {
+                let sum = seen.iter().fold(Pixel::default(), |sum, seen| sum + self.pixel(seen));
+                return (sum / count).stored();
+            }
+            let sum = seen.iter().fold(Rgb::ZERO, |sum, seen| sum + self.pixel(seen).color);
+            Pixel { color: sum / count, cover: 1.0 }.stored()
         }));
         if let (Some(ties), Some(each)) = (ties, each) {
             ties.extend(each.chunks_exact(parts).map(Ties::from_iter));

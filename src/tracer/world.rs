@@ -10,7 +10,7 @@ use crate::geometry::{Bounds, Solid as _};
 use crate::lanes::{F32x8, Mask8, Simd, U32x8, Vec3x8};
 use crate::packet::Rays;
 use crate::packet::boxes::{Aabb, Hierarchy, Way};
-use crate::packet::shaft::{Crowd, Few, Shaft};
+use crate::packet::shaft::{self, Crowd, Few, Shaft};
 use crate::packet::solids::Normals;
 use crate::packet::surfaces::Look;
 use crate::scene::{Object, Scene};
@@ -22,6 +22,9 @@ use super::ties::{NO_MEMBER, Ties8};
 /// How far off a surface its secondary rays begin, along the normal, in world units: enough not
 /// to meet the surface itself, too little to miss what touches it.
 pub const OFFSET: f32 = 1e-4;
+
+/// Rays whose shaft may meet more bodies than these do not keep together.
+const TOGETHER: usize = 8;
 
 /// What stands for no body.
 pub const NOTHING: u32 = u32::MAX;
@@ -37,8 +40,9 @@ pub struct World<'a> {
     loose: Vec<usize>,
     boxes: Hierarchy,
     endless: Vec<usize>,
-    /// All that has an end, for shafts.
+    /// All that has an end, for shafts, and the middle and the radius of a ball round it.
     crowd: Crowd,
+    ball: (Vec3, f32),
     /// Which bodies are transparent.
     transparent: Vec<usize>,
     /// Numbers by which bodies are told apart, whatever else there is.
@@ -73,6 +77,13 @@ pub struct Meeting<S: Simd> {
 }
 
 impl<S: Simd> Meeting<S> {
+    /// None so far, up to the distances `before`.
+    #[inline(always)]
+    fn nothing(before: F32x8<S>) -> Meeting<S> {
+        let nothing = U32x8::splat(NOTHING);
+        Meeting { t: before, body: nothing, part: nothing }
+    }
+
     /// Where anything is met.
     #[inline(always)]
     pub fn lanes(&self) -> Mask8<S> {
@@ -104,6 +115,7 @@ impl<'a> World<'a> {
             boxes: Hierarchy::new(&[], 0.0),
             endless: Vec::new(),
             crowd: Crowd::new([]),
+            ball: (Vec3::ZERO, 0.0),
             transparent: Vec::new(),
             names: Vec::new(),
             members: Vec::new(),
@@ -130,6 +142,10 @@ impl<'a> World<'a> {
         // What has none is never met there.
         let ends = |body: &Body| if body.is_endless { Aabb::round([]) } else { body.aabb };
         world.crowd = Crowd::new(world.bodies.iter().map(ends));
+        let all = Aabb::round(world.bodies.iter().map(ends));
+        if all.min.is_finite() {
+            world.ball = (all.middle(), (all.max - all.min).length() / 2.0);
+        }
         world.absent = cast.map(|cast| {
             let others = (0..).zip(cast.members());
             let absent = others
@@ -176,34 +192,90 @@ impl<'a> World<'a> {
         S::run(
             #[inline(always)]
             || {
-                let nothing = U32x8::splat(NOTHING);
-                let mut found = Meeting { t: before, body: nothing, part: nothing };
+                let mut found = Meeting::nothing(before);
                 self.visit(
                     rays,
                     Search { lanes, before },
                     #[inline(always)]
                     |index, lanes, search| {
-                        let body = &self.bodies[index];
-                        // A hair more, so that what is in one place is compared.
-                        let limit = found.t * F32x8::splat(1.0 + 2.0 * f32::EPSILON);
-                        let crossing = body.first(rays, limit, lanes);
-                        let number = U32x8::splat(index as u32);
-                        let is_first = crossing.t.eq(found.t) & number.below(found.body);
-                        let closer = lanes & (crossing.t.lt(found.t) | is_first);
-                        found.t = closer.select(crossing.t, found.t);
-                        found.body = closer.select_words(number, found.body);
-                        found.part = closer.select_words(crossing.part, found.part);
+                        self.meet(index, rays, lanes, &mut found);
                         search.before = found.t * F32x8::splat(1.0 + 4.0 * f32::EPSILON);
                     },
                 );
-                if let (Some(ties), Some(absent)) = (ties, &self.absent) {
-                    let met = lanes & found.lanes();
-                    ties.add_each(U32x8::gather(&self.members, found.body), met);
-                    absent.would_meet(rays, found.t, lanes, ties);
-                }
+                self.tell_met(rays, lanes, &found, ties);
                 found
             },
         )
+    }
+
+    /// The same for rays, with directions of length 1, that keep together: those from the camera, or from a plain
+    /// mirror.
+    #[inline(never)]
+    pub fn nearest_together<S: Simd>(
+        &self,
+        rays: &Rays<S>,
+        before: F32x8<S>,
+        lanes: Mask8<S>,
+        ties: &mut Option<Ties8<S>>,
+    ) -> Meeting<S> {
+        S::run(
+            #[inline(always)]
+            || {
+                let from = shaft::round(rays.origin, lanes);
+                let ((middle, radius), spread) = (self.ball, (from.max - from.min).length());
+                let reach = (from.middle() - middle).length() + spread + radius;
+                let to = shaft::round(rays.at(F32x8::splat(1.001 * reach)), lanes);
+                let few = self.crowd.among::<S>(&Shaft::new(&from, &to));
+                if few.len() > TOGETHER {
+                    return self.nearest(rays, before, lanes, ties);
+                }
+                let (way, zero) = (Way::new(rays), F32x8::splat(0.0));
+                let mut found = Meeting::nothing(before);
+                for index in &self.endless {
+                    self.meet(*index, rays, lanes, &mut found);
+                }
+                for index in few {
+                    let index = index as usize;
+                    let before = found.t * F32x8::splat(1.0 + 4.0 * f32::EPSILON);
+                    let near = lanes & self.bodies[index].aabb.may_meet(&way, zero, before);
+                    if near.any() {
+                        self.meet(index, rays, near, &mut found);
+                    }
+                }
+                self.tell_met(rays, lanes, &found, ties);
+                found
+            },
+        )
+    }
+
+    /// Takes the first crossing of a body where it is the nearest so far.
+    #[inline(always)]
+    fn meet<S: Simd>(&self, index: usize, rays: &Rays<S>, lanes: Mask8<S>, found: &mut Meeting<S>) {
+        // A hair more, so that what is in one place is compared.
+        let limit = found.t * F32x8::splat(1.0 + 2.0 * f32::EPSILON);
+        let crossing = self.bodies[index].first(rays, limit, lanes);
+        let number = U32x8::splat(index as u32);
+        let is_first = crossing.t.eq(found.t) & number.below(found.body);
+        let closer = lanes & (crossing.t.lt(found.t) | is_first);
+        found.t = closer.select(crossing.t, found.t);
+        found.body = closer.select_words(number, found.body);
+        found.part = closer.select_words(crossing.part, found.part);
+    }
+
+    /// Adds what it depends on that rays meet that, if it is asked for.
+    #[inline(always)]
+    fn tell_met<S: Simd>(
+        &self,
+        rays: &Rays<S>,
+        lanes: Mask8<S>,
+        found: &Meeting<S>,
+        ties: &mut Option<Ties8<S>>,
+    ) {
+        if let (Some(ties), Some(absent)) = (ties, &self.absent) {
+            let met = lanes & found.lanes();
+            ties.add_each(U32x8::gather(&self.members, found.body), met);
+            absent.would_meet(rays, found.t, lanes, ties);
+        }
     }
 
     /// What may stand between points within `from` and a light within `to`.

@@ -182,7 +182,8 @@ impl<'a> Studio<'a> {
             outlooks: Outlooks::new(&known),
             ties: found,
         };
-        let meeting = self.nearest(&rays, lanes, &mut draw);
+        let farthest = F32x8::splat(self.world.scene.max_distance as f32);
+        let meeting = self.world.nearest_together(&rays, farthest, lanes, &mut draw.ties);
         let hit = lanes & meeting.lanes();
         if !hit.any() {
             seen.extend(samples.iter().map(|_| Glimpse::default()));
