@@ -134,12 +134,25 @@ const LAST: usize = 72;
 #[test]
 fn glass_and_lenses_and_grounds_change_nothing() {
     type Change = fn(&mut Config);
-    let cases: [(&str, Look, Change); 7] = [
+    let cases: [(&str, Look, Change); 10] = [
         ("glass", Look::Thesis, |config| config.theme = "glass".to_owned()),
         ("glass", Look::Studio, |config| config.theme = "glass".to_owned()),
         ("marble", Look::Thesis, |config| config.theme = "marble".to_owned()),
         ("print", Look::Studio, |config| config.theme = "print".to_owned()),
         ("a lens", Look::Studio, |config| config.camera.aperture = 2.0),
+        // More softboxes than there are bits for.
+        ("many lights", Look::Studio, |config| {
+            config.lights = config.lights.iter().cycle().take(40).copied().collect();
+            config.lights.iter_mut().for_each(|light| light.color *= 0.07);
+        }),
+        ("points and what is below", Look::Studio, |config| {
+            (config.lights[0].width, config.lights[0].height) = (0.0, 0.0);
+            config.lights[1].position.y = -9.0;
+        }),
+        ("a black sky", Look::Studio, |config| {
+            let room = &mut config.room;
+            (room.horizon, room.sky, room.zenith) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
+        }),
         // Shares that lie between two bytes.
         ("a grey ground", Look::Thesis, |config| {
             config.parts.background = Some(Some(DVec3::new(0.1, 0.3, 0.7)));

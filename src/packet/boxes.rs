@@ -50,8 +50,21 @@ impl Aabb {
         Aabb { min: (bounds.min - margin).as_vec3(), max: (bounds.max + margin).as_vec3() }
     }
 
-    /// The box round some boxes; it holds nothing where there are none.
-    pub fn round(boxes: impl IntoIterator<Item = Aabb>) -> Aabb {
+    /// The smallest box round points of some lanes; one of nothing where there are none.
+    #[inline(always)]
+    pub fn of_points<S: Simd>(points: Vec3x8<S>, lanes: Mask8<S>) -> Aabb {
+        if !lanes.any() {
+            return Aabb::union([]);
+        }
+        // Lanes that do not count are as one that does.
+        let one = points.rows().lane(lanes.bits().trailing_zeros() as usize);
+        let points = Vec3x8::select(lanes, points, Vec3x8::splat(one));
+        let [x, y, z] = [points.x.range(), points.y.range(), points.z.range()];
+        Aabb { min: Vec3::new(x[0], y[0], z[0]), max: Vec3::new(x[1], y[1], z[1]) }
+    }
+
+    /// The smallest box round some boxes; one of nothing where there are none.
+    pub fn union(boxes: impl IntoIterator<Item = Aabb>) -> Aabb {
         let nothing = Aabb { min: Vec3::INFINITY, max: Vec3::NEG_INFINITY };
         boxes.into_iter().fold(nothing, |round, aabb| Aabb {
             min: round.min.min(aabb.min),

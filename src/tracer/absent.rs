@@ -47,7 +47,7 @@ impl Absent {
         }
         let bounds: Vec<Bounds> = bodies.iter().map(|(_, body)| body.aabb.bounds()).collect();
         let are_transparent = bodies.iter().any(|(_, body)| body.is_transparent);
-        let all = Aabb::round(bodies.iter().map(|(_, body)| body.aabb));
+        let all = Aabb::union(bodies.iter().map(|(_, body)| body.aabb));
         Absent {
             bodies,
             boxes: Hierarchy::new(&bounds, 0.0),

@@ -133,13 +133,13 @@ impl Body {
         self.solid.blocks(&self.to_own.rays(rays), after, before, lanes)
     }
 
-    /// Which `points` are where, as it is known without asking, no way from there to any of the `others` meets it.
+    /// From which `points`, as far as that is known without asking, no way to any of the `others` meets it.
     #[inline(always)]
-    pub fn is_below<S: Simd>(&self, points: Vec3x8<S>, others: &[Vec3]) -> Mask8<S> {
-        let mut lanes = self.solid.is_below(self.to_own.point(points));
+    pub fn is_in_front_of<S: Simd>(&self, points: Vec3x8<S>, others: &[Vec3]) -> Mask8<S> {
+        let mut lanes = self.solid.is_in_front_of(self.to_own.point(points));
         for other in others {
             if lanes.any() {
-                lanes = lanes & self.solid.is_below(self.to_own.point(Vec3x8::splat(*other)));
+                lanes = lanes & self.solid.is_in_front_of(self.to_own.point(Vec3x8::splat(*other)));
             }
         }
         lanes

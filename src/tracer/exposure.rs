@@ -3,65 +3,19 @@
 use glam::Vec3;
 
 use super::eye::Eye;
-use super::outlook::{BOXES, Known, OPEN, Outlook, POOLS, SKY, Shares};
+use super::outlook::{BOXES, Known, MIRROR, OPEN, Outlook, POOLS, SKY, Shares};
 use super::pixel::{Pixel, Stored};
 use super::plane::{Plane, Spot};
+use super::samples::{Glimpse, Sample, Sum, own_shares, shown};
+use super::sizes::Sizes;
 use super::sketch::Painter;
 use super::ties::Ties;
-use super::{Antialiasing, RayCounts, tone};
+use super::{RayCounts, tone};
 use crate::scene::{Rgb, Scene, linear_light};
-
-/// What numbers are for: where in the pixel a sample goes through.
-pub const PLACE: u32 = 0;
-
-/// Where in the lens it does.
-pub const LENS: u32 = 1;
-
-/// No fewer samples are believed. With so many, pixels share out light between them.
-const FEWEST: u32 = 4;
-
-/// How far off, in pixels, others are whose first looks tell how much there is of light that is shared out.
-const REACH: u32 = 2;
-
-/// With so many times the first samples an error may be as great as the threshold.
-const ENOUGH: f32 = 1.25;
-
-/// What looks like what is beside it may err as if it had so many samples more.
-const PLAIN: f32 = 2.0;
 
 /// Pixels side by side whose brightness differs by more are looked at again: a hairline may have been
 /// missed in one of them.
 const CONTRAST: f32 = 0.08;
-
-/// One bright sample among dark ones counts no more than this: fine highlights do not flicker.
-const BRIGHTEST: f32 = 2.0;
-
-/// A sample of a pixel.
-#[derive(Clone, Copy, Debug)]
-pub struct Sample {
-    pub spot: Spot,
-    pub index: u32,
-    /// Whether it goes through the pixel's middle, being the only one.
-    pub is_centered: bool,
-    /// What it need not ask.
-    pub known: Known,
-}
-
-/// What a single ray from the camera brings back.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Glimpse {
-    /// Linear, and no brighter than one sample may be.
-    pub light: Vec3,
-    /// How much of the background it hides, 0 to 1.
-    pub cover: f32,
-    pub outlook: Outlook,
-}
-
-impl Glimpse {
-    pub fn new(light: Vec3, cover: f32, outlook: Outlook) -> Glimpse {
-        Glimpse { light: light.min(Vec3::splat(BRIGHTEST)), cover, outlook }
-    }
-}
 
 /// Develops what an eye sees.
 pub struct Exposure<E> {
@@ -72,45 +26,9 @@ pub struct Exposure<E> {
     behind: Option<f32>,
 }
 
-/// How many samples pixels get.
-pub struct Sizes {
-    /// Of a pixel to begin with, of one that is not as simple as it seems, and at most.
-    few: u32,
-    first: u32,
-    most: u32,
-    /// The error of a pixel's mean that is small enough, of what can be shown; negative where none is.
-    error: f32,
-    has_lens: bool,
-}
-
-/// The samples of a pixel so far.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Sum {
-    count: u32,
-    light: Vec3,
-    cover: f32,
-    /// Of the square of what they cover.
-    covers: f32,
-    /// How bright samples look as they are, and as of what is seen under one share of the softboxes' light.
-    noises: [Noise; 2],
-    outlook: Outlook,
-    /// How bright the first look at it is under an open sky, and as of what is seen under open softboxes too.
-    brightness: [f32; 2],
-    /// Whether that look asked for the sky: half of all pixels do, for the others too.
-    asks: bool,
-}
-
 /// Whether a pixel asks: two side by side, which make a packet, and not the two beside them.
 fn asks([x, y]: Spot) -> bool {
     (x / 2 + y).is_multiple_of(2)
-}
-
-/// How much samples differ.
-#[derive(Clone, Copy, Debug, Default)]
-struct Noise {
-    /// Of how bright they look, and of its square.
-    shown: f32,
-    squares: f32,
 }
 
 /// All samples of a pixel, but for how much they see of light that is shared out.
@@ -160,22 +78,8 @@ impl Guide {
     /// For later samples. Their errors are as of what the first look saw, not of what those beside it did: the work
     /// depends on these by its plan alone.
     fn later(own: &Sum, Plan { known, .. }: &Plan) -> Guide {
-        Guide { known: *known, shares: Some(shared(own_shares(&own.outlook, own.asks), known)) }
+        Guide { known: *known, shares: Some(shared(own.shares(), known)) }
     }
-}
-
-/// How bright light looks, 0 to 1: a square root is near enough.
-fn shown(light: Vec3) -> f32 {
-    ((light.x + light.y + light.z) * (1.0 / 3.0)).clamp(0.0, 1.0).sqrt()
-}
-
-/// Of open light what samples of a pixel saw of it; all of the sky's where they did not ask.
-fn own_shares(outlook: &Outlook, asks: bool) -> Shares {
-    let mut shares = outlook.shares();
-    if !asks {
-        shares[SKY] = Some(Vec3::ONE);
-    }
-    shares
 }
 
 /// The shares of light that pixels share out, all of it where nobody asked; none of what they do not share.
@@ -187,62 +91,6 @@ fn shared(shares: Shares, known: &Known) -> Shares {
     shares
 }
 
-impl Sizes {
-    /// Of a grid the number of rays alone counts; adaptive, a pixel begins with a few, and goes on while the error
-    /// of its mean seems too great. Before a quarter of them it stops only where it is like the pixels beside it.
-    pub fn new(scene: &Scene, mode: Antialiasing) -> Sizes {
-        let (first, most, error) = match mode {
-            Antialiasing::None => (1, 1, -1.0),
-            Antialiasing::Grid(side) => (side * side, side * side, -1.0),
-            Antialiasing::Adaptive { rays, threshold } => {
-                // Samples are most even in powers of two.
-                let quarter = (rays * rays / 4).max(1);
-                (1 << quarter.ilog2(), rays * rays, threshold)
-            }
-        };
-        let has_lens = scene.camera.has_lens();
-        let few = if has_lens { first } else { first / 4 };
-        Sizes { few: few.max(FEWEST).min(most), first, most, error, has_lens }
-    }
-
-    /// Whether pixels share out light.
-    fn share_out(&self) -> bool {
-        self.few == FEWEST
-    }
-
-    /// How many samples side by side make a pixel's width, as far as textures are concerned.
-    pub fn across(&self) -> f64 {
-        f64::from(self.first).sqrt().min(4.0)
-    }
-
-    /// Whether a pixel that had its first look needs more samples. `around` are the first looks at it and at the
-    /// pixels beside it: where they spread, its own few may be alike by chance.
-    fn goes_on(&self, sum: &Sum, around: &Sum, Plan { known, differs, .. }: &Plan) -> bool {
-        let least = around.deviation(known) / (self.few as f32).sqrt();
-        self.is_short(sum, least.max(sum.error(known)), *differs)
-    }
-
-    /// Whether it needs more than it has.
-    fn wants_more(&self, sum: &Sum, Plan { known, differs, .. }: &Plan) -> bool {
-        self.is_short(sum, sum.error(known), *differs)
-    }
-
-    /// An error may be the greater the more samples it took. So each sample goes where it brings most, since
-    /// halving an error takes four times as many.
-    fn is_short(&self, sum: &Sum, error: f32, differs: bool) -> bool {
-        if sum.count >= self.most {
-            return false;
-        }
-        if differs && sum.count < self.first {
-            return true;
-        }
-        // What a lens blurs is made of few bright samples among many.
-        let small = if self.has_lens { self.error / 2.0 } else { self.error };
-        let count = sum.count as f32 + if differs { 0.0 } else { PLAIN };
-        error > small * count / (ENOUGH * self.first as f32)
-    }
-}
-
 impl<E: Eye<[Sample], Glimpse>> Exposure<E> {
     pub fn new(eye: E, scene: &Scene, sizes: Sizes) -> Exposure<E> {
         let behind = scene.background.map(|color| shown(linear_light(color).as_vec3()));
@@ -250,7 +98,7 @@ impl<E: Eye<[Sample], Glimpse>> Exposure<E> {
     }
 
     /// Adds samples to some of the pixels, up to the number that each of them `wanted`, and what they
-    /// depend on. First samples ask everything, others go by their `guides`.
+    /// depend on. They ask what their `guides` do not answer.
     fn add(
         &self,
         spots: &[Spot],
@@ -297,8 +145,7 @@ impl<E: Eye<[Sample], Glimpse>> Exposure<E> {
     fn shares(&self, spot: Spot, looks: &Plane<Sum>) -> Shares {
         let mut around = Outlook::default();
         looks.round(spot, 1).for_each(|there| around.pools[BOXES].add(&there.outlook.pools[BOXES]));
-        let reach = if self.sizes.share_out() { REACH } else { 1 };
-        let asking = looks.round(spot, reach).filter(|there| there.asks);
+        let asking = looks.round(spot, self.sizes.reach()).filter(|there| there.asks);
         asking.for_each(|there| around.pools[SKY].add(&there.outlook.pools[SKY]));
         around.shares()
     }
@@ -317,16 +164,19 @@ impl<E: Eye<[Sample], Glimpse>> Exposure<E> {
                 *differs |= (there - own).abs() > CONTRAST;
             }
         }
-        // Of what nobody asked for there is nothing to share out.
         let mut known = around.outlook.known();
         // Many samples of its own know an edge better. Where one pixel is lit and another is not there is an edge of
         // a shadow, which would be blurred.
         let is_edge = differ[OPEN] || free & hidden != 0;
         known.pooled[BOXES] &= !is_edge && self.sizes.share_out();
         let differs = differ[usize::from(known.pooled[BOXES])];
-        known.pooled[SKY] &= !differs || self.sizes.share_out();
+        if known.pooled[BOXES] {
+            // Nobody asks for single ones.
+            (known.free, known.hidden) = (known.free & 1 << MIRROR, known.hidden & 1 << MIRROR);
+        }
+        known.pooled[SKY] = self.sizes.share_out() || (known.pooled[SKY] && !differs);
         let plan = Plan { known, differs, goes_on: false };
-        Plan { goes_on: self.sizes.goes_on(own, &around, &plan), ..plan }
+        Plan { goes_on: self.sizes.goes_on(own, &around, &known, differs), ..plan }
     }
 
     /// What the samples show: their light through the tone curve, over the background.
@@ -404,7 +254,10 @@ impl<E: Eye<[Sample], Glimpse>> Painter for Exposure<E> {
             let wanted = |sum: &Sum| (2 * sum.count).min(self.sizes.most);
             counts =
                 counts + self.add(spots, &some, &guides, wanted, &mut sums, each.as_deref_mut());
-            some.retain(|index| self.sizes.wants_more(&sums[*index], &plans[*index]));
+            some.retain(|index| {
+                let Plan { known, differs, .. } = &plans[*index];
+                self.sizes.wants_more(&sums[*index], known, *differs)
+            });
         }
         made.extend(sums.iter().zip(plans).map(|(sum, plan)| Exposed::new(sum, plan)));
         if let (Some(ties), Some(each)) = (ties, each) {
@@ -417,7 +270,7 @@ impl<E: Eye<[Sample], Glimpse>> Painter for Exposure<E> {
         self.plan(spot, looks) == work.plan
     }
 
-    /// Shares that its samples did not ask for are those of all first looks round the pixel together.
+    /// Shares that its samples did not ask for are those of all first looks round the pixel that asked, together.
     fn finish(&self, spot: Spot, looks: &Plane<Sum>, work: &Exposed) -> Stored {
         let mut shares = Shares::default();
         if work.plan.known.pooled.contains(&true) {
@@ -427,7 +280,7 @@ impl<E: Eye<[Sample], Glimpse>> Painter for Exposure<E> {
     }
 
     fn reach(&self) -> u32 {
-        REACH
+        self.sizes.reach()
     }
 
     fn rays(&self) -> u64 {
@@ -435,74 +288,21 @@ impl<E: Eye<[Sample], Glimpse>> Painter for Exposure<E> {
     }
 }
 
-impl Sum {
-    /// Adds a sample, before a background that looks as bright as `behind`. Its error is as of what is seen
-    /// under such `shares` of open light.
-    fn add(&mut self, glimpse: &Glimpse, shares: &Shares, behind: Option<f32>) {
-        let Glimpse { light, cover, mut outlook } = *glimpse;
-        let ground = behind.unwrap_or(0.0) * (1.0 - cover);
-        let own = outlook.under_one(SKY, light, shares);
-        let one = outlook.under_one(BOXES, own, shares);
-        let bright = shown(own) * cover + ground;
-        self.noises[0].add(bright);
-        self.noises[1].add(if one == own { bright } else { shown(one) * cover + ground });
-        outlook.weigh(Vec3::splat(cover));
-        self.outlook.add(&outlook);
-        self.count += 1;
-        self.light += light * cover;
-        self.cover += cover;
-        if behind.is_none() {
-            self.covers += cover * cover;
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tracer::plane::Plane;
+
+    /// In pictures of any shape that are wide enough for two pixels that ask and two that do not.
+    #[test]
+    fn every_pixel_has_one_in_reach_that_asks() {
+        for [width, height] in [[4, 1], [1, 2], [3, 3], [9, 7]] {
+            let mut plane = Plane::new(width, height, false);
+            let all = || (0..width).flat_map(|x| (0..height).map(move |y| [x, y]));
+            all().for_each(|spot| plane.set(spot, asks(spot)));
+            for spot in all() {
+                assert!(plane.round(spot, 2).any(|asks| *asks), "{spot:?} of {width} x {height}");
+            }
         }
-    }
-
-    /// Ends the first look.
-    fn looked(&mut self, behind: Option<f32>) {
-        let cover = self.cover / self.count as f32;
-        let ground = behind.unwrap_or(0.0) * (1.0 - cover);
-        self.brightness = [ground; 2];
-        if self.cover > 0.0 {
-            let all = [Some(Vec3::ONE); POOLS];
-            let own = self.outlook.under_one(SKY, self.light, &all);
-            let open = self.outlook.under_one(BOXES, own, &all);
-            self.brightness = [own, open].map(|light| shown(light / self.cover) * cover + ground);
-        }
-    }
-
-    /// Adds the samples of another pixel.
-    fn merge(&mut self, other: &Sum) {
-        self.count += other.count;
-        self.cover += other.cover;
-        for (noise, other) in self.noises.iter_mut().zip(&other.noises) {
-            noise.shown += other.shown;
-            noise.squares += other.squares;
-        }
-        self.covers += other.covers;
-        self.outlook.add(&other.outlook);
-    }
-
-    /// The standard deviation of how bright samples look that go by what is `known`, or of how much they cover of
-    /// what is transparent.
-    fn deviation(&self, known: &Known) -> f32 {
-        let scale = 1.0 / self.count as f32;
-        let variance = |sum: f32, squares: f32| {
-            let mean = sum * scale;
-            (squares * scale - mean * mean).max(0.0)
-        };
-        let Noise { shown, squares } = self.noises[usize::from(known.pooled[BOXES])];
-        variance(shown, squares).max(variance(self.cover, self.covers)).sqrt()
-    }
-
-    /// The standard error of the mean, as of samples that know nothing of each other; these are more even, and
-    /// err less.
-    fn error(&self, known: &Known) -> f32 {
-        self.deviation(known) / (self.count as f32 - 1.0).max(1.0).sqrt()
-    }
-}
-
-impl Noise {
-    fn add(&mut self, shown: f32) {
-        self.shown += shown;
-        self.squares += shown * shown;
     }
 }

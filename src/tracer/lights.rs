@@ -1,5 +1,5 @@
 //! The studio's room for packets: softboxes and the sky. (The formulas and their sources stand in
-//! [`Room`].)
+//! [`Room`] and [`Softbox`].)
 
 use std::f32::consts::SQRT_2;
 
@@ -120,7 +120,7 @@ impl LightBox {
         let corners = [corner(0.0, 0.0), corner(0.0, 1.0), corner(1.0, 0.0), corner(1.0, 1.0)];
         LightBox {
             corners,
-            aabb: Aabb::round(corners.map(|corner| Aabb { min: corner, max: corner })),
+            aabb: Aabb::union(corners.map(|corner| Aabb { min: corner, max: corner })),
             color: softbox.color.as_vec3(),
             center: softbox.center.as_vec3(),
             half,
@@ -210,7 +210,9 @@ impl LightBox {
 #[inline(always)]
 fn above<S: Simd>(normal: Vec3x8<S>, way: Vec3x8<S>, [a, b]: &[Vec3x8<S>; 2]) -> [Mask8<S>; 2] {
     let (middle, spread) = (normal.dot(way), normal.dot(*a).abs() + normal.dot(*b).abs());
-    [middle.gt(spread), middle.gt(-spread)]
+    // Room for rounding: all points of what is whole are above.
+    let room = (way.x.abs() + way.y.abs() + way.z.abs()) * F32x8::splat(1e-5);
+    [middle.gt(spread + room), middle.gt(-spread - room)]
 }
 
 /// How much of a blurred stretch of half the `length` each way is seen at `place`.
@@ -225,4 +227,51 @@ fn filled<S: Simd>(length: F32x8<S>, place: F32x8<S>, scale: F32x8<S>) -> F32x8<
 fn between<S: Simd>(column: &[f32], index: U32x8<S>, share: F32x8<S>) -> F32x8<S> {
     let low = F32x8::gather(column, index);
     low.lerp(F32x8::gather(column, index + U32x8::splat(1)), share)
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::config::Light;
+    use crate::lanes::Plain;
+
+    #[test]
+    fn softboxes_are_as_whole_and_as_bright_as_one_by_one() {
+        let light = Light {
+            position: DVec3::new(14.0, 30.0, 14.0),
+            color: DVec3::ONE,
+            width: 20.0,
+            height: 10.0,
+        };
+        let softbox = Room::new(&crate::config::Room::default(), &[light], 0.0).softboxes[0];
+        let lights = LightBox::new(&softbox);
+        let (mut whole, mut part, mut none) = (0, 0, 0);
+        for step in 0..2000 {
+            let turn = |number: u32| (f64::from(step * number % 1999) / 999.5 - 1.0) * 30.0;
+            let point = DVec3::new(turn(7), turn(11).abs(), turn(13));
+            let normal = DVec3::new(turn(17), turn(19), turn(23)).normalize_or(DVec3::Y);
+            let outward = (normal + DVec3::new(turn(29), turn(31), 9.0) * 0.01).normalize();
+            let load = |v: DVec3| Vec3x8::<Plain>::load(&[v; 8]);
+            let found = lights.prospect(load(point), load(normal), load(outward));
+            let expected = softbox.mean_cosine(point, normal, outward);
+            let is_whole = found.is_whole.any();
+            // Where it nearly touches the horizon rounding decides.
+            match (is_whole, expected) {
+                (true, Some(mean)) => {
+                    whole += 1;
+                    assert!((f64::from(found.mean.store()[0]) - mean).abs() < 1e-5, "{point}");
+                }
+                (true, None) => panic!("{point}, {normal}: not all of it is above"),
+                (false, Some(_)) => part += 1,
+                (false, None) => none += 1,
+            }
+            let corners = [(0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0)];
+            let ways = corners.map(|pair| softbox.point(pair) - point);
+            let lit = ways.iter().any(|way| way.dot(normal) > 0.0 && way.dot(outward) > 0.0);
+            assert!(found.may_light.any() || !lit, "{point}, {normal}");
+        }
+        assert!(whole > 300 && none > 300 && part < 10, "{whole}, {part}, {none}");
+    }
 }

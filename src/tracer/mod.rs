@@ -26,10 +26,12 @@ mod pixel;
 mod plane;
 mod record;
 mod reuse;
+mod samples;
 mod sampling;
 mod sequence;
 mod shelf;
 mod silhouette;
+mod sizes;
 mod sketch;
 mod slab;
 mod studio;
@@ -45,7 +47,7 @@ pub use reuse::{Tracer, render, render_by_oracle};
 pub struct RayCounts {
     /// From the camera.
     pub primary: u64,
-    /// Towards a light.
+    /// Towards a light, those among them that nothing can stand in the way of, as a shaft tells.
     pub shadow: u64,
     /// From a mirror, or from the inside of what is transparent.
     pub reflected: u64,

@@ -3,7 +3,8 @@
 //! Where all of them saw a softbox, or none of them did, the next sample would see no more. What stands in
 //! the way of the sky changes so slowly from pixel to pixel that all of them together know it better than
 //! the samples of one: also at the edges of bodies, where what they share out is what each sample would see under an
-//! open sky.
+//! open sky. So does what stands in the way of softboxes, but for the edges of sharp shadows. Half of all pixels
+//! ask for the sky; the others note what would come, and nothing that came.
 
 use glam::Vec3;
 
@@ -51,8 +52,8 @@ impl Pool {
         self.open += other.open;
     }
 
-    /// Of its open light what there really is, by channel, all of it where a channel has none; `None` where nobody
-    /// has asked.
+    /// Of its open light what there really is, by channel, all of it where a channel has none; `None` where there is no
+    /// open light. Those who did not ask may not be among it, or they count as dark.
     pub fn share(&self) -> Option<Vec3> {
         let is_any = self.open.cmpgt(Vec3::ZERO);
         is_any.any().then(|| Vec3::select(is_any, self.came / self.open, Vec3::ONE))
@@ -244,6 +245,13 @@ mod tests {
         assert_eq!((known.free, known.hidden), (0b0001, 0b1000));
         assert_eq!(outlook.shares(), [None, Some(Vec3::new(0.2, 0.4, 0.6) / 0.8)]);
         assert_eq!([known.pooled, Outlook::default().known().pooled], [[false, true], [false; 2]]);
+    }
+
+    #[test]
+    fn a_channel_without_open_light_has_all_of_it() {
+        let pool = Pool { came: Vec3::new(0.0, 0.1, 0.0), open: Vec3::new(0.0, 0.4, 0.2) };
+        assert_eq!(pool.share(), Some(Vec3::new(1.0, 0.25, 0.0)));
+        assert_eq!(Pool::default().share(), None);
     }
 
     #[test]

@@ -11,8 +11,8 @@ use super::plane::Spot;
 use super::ties::{Ties, Ties8};
 use super::world::{OFFSET, World};
 use crate::lanes::{F32x8, LANES, Mask8, Simd, Task, Vec3x8, dispatch, math};
+use crate::packet::Rays;
 use crate::packet::boxes::Aabb;
-use crate::packet::{Rays, shaft};
 use crate::scene::Rgb;
 
 /// How often a ray may go straight through a surface before each further time counts as refraction.
@@ -183,9 +183,10 @@ impl<'a> Phong<'a> {
                 let mut scattered = Vec3x8::grey(materials.ambient(sight.material));
                 let mut highlights = Vec3x8::zero();
                 let zero = F32x8::splat(0.0);
-                let places = shaft::round(leaving, hit);
+                let places = Aabb::of_points(leaving, hit);
                 for light in &scene.lights {
-                    let towards = Vec3x8::splat(light.position.as_vec3()) - leaving;
+                    let at = light.position.as_vec3();
+                    let towards = Vec3x8::splat(at) - leaving;
                     let distance = towards.length();
                     let towards = towards * distance.recip();
                     let incidence = normal.dot(towards);
@@ -195,7 +196,6 @@ impl<'a> Phong<'a> {
                     }
                     walk.counts.shadow += u64::from(lit.bits().count_ones());
                     let way = Rays { origin: leaving, direction: towards };
-                    let at = light.position.as_vec3();
                     let between = world.between::<S>(&places, &Aabb { min: at, max: at });
                     let asking = lit.but(world.is_open(leaving, &[at], &between));
                     let mut share = lit.keep(F32x8::splat(1.0));

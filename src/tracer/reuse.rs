@@ -9,15 +9,17 @@
 use image::DynamicImage;
 
 use super::cast::{Cast, Stand, change};
-use super::exposure::{Exposed, Exposure, Sizes, Sum};
+use super::exposure::{Exposed, Exposure};
 use super::mask::Mask;
 use super::oracle;
 use super::phong::{Phong, Seen};
 use super::pixel::{self, Stored};
 use super::plane::Plane;
+use super::samples::Sum;
 use super::sampling::Sampling;
 use super::shelf::Shelf;
 use super::silhouette::silhouette;
+use super::sizes::Sizes;
 use super::sketch::{Overlay, Painter, Sketch};
 use super::studio::Studio;
 use super::ties::Ties;

@@ -78,7 +78,7 @@ struct Stale {
     /// The pixels whose first looks are to be made again, and whose work is.
     looks: Mask,
     works: Mask,
-    /// These, and those beside them.
+    /// These, and those that are in reach of them.
     all: Mask,
 }
 

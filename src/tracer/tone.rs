@@ -70,6 +70,14 @@ mod tests {
     }
 
     #[test]
+    fn the_table_is_the_curve() {
+        for step in 0..=200_000 {
+            let light = f64::from(step) / 200_000.0;
+            assert!((stored(Rgb::splat(light)).x - curve(light)).abs() < 1e-6, "{light}");
+        }
+    }
+
+    #[test]
     fn the_curve_rises_keeps_base_colors_and_never_burns_out() {
         let mut last = -1.0;
         for step in 0..2000 {

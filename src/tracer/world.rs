@@ -1,16 +1,16 @@
 //! What packets of rays ask a scene, whatever then becomes of the answers.
 
+use glam::Vec3;
+
 use super::absent::Absent;
 use super::body::Body;
 use super::cast::Cast;
 use super::cells::Grid;
-use glam::Vec3;
-
 use crate::geometry::{Bounds, Solid as _};
 use crate::lanes::{F32x8, Mask8, Simd, U32x8, Vec3x8};
 use crate::packet::Rays;
 use crate::packet::boxes::{Aabb, Hierarchy, Way};
-use crate::packet::shaft::{self, Crowd, Few, Shaft};
+use crate::packet::shaft::{Crowd, Few, Shaft};
 use crate::packet::solids::Normals;
 use crate::packet::surfaces::Look;
 use crate::scene::{Object, Scene};
@@ -140,9 +140,9 @@ impl<'a> World<'a> {
         let loose: Vec<Bounds> = world.loose.iter().map(bounds).collect();
         world.boxes = Hierarchy::new(&loose, 0.0);
         // What has none is never met there.
-        let ends = |body: &Body| if body.is_endless { Aabb::round([]) } else { body.aabb };
+        let ends = |body: &Body| if body.is_endless { Aabb::union([]) } else { body.aabb };
         world.crowd = Crowd::new(world.bodies.iter().map(ends));
-        let all = Aabb::round(world.bodies.iter().map(ends));
+        let all = Aabb::union(world.bodies.iter().map(ends));
         if all.min.is_finite() {
             world.ball = (all.middle(), (all.max - all.min).length() / 2.0);
         }
@@ -221,10 +221,10 @@ impl<'a> World<'a> {
         S::run(
             #[inline(always)]
             || {
-                let from = shaft::round(rays.origin, lanes);
+                let from = Aabb::of_points(rays.origin, lanes);
                 let ((middle, radius), spread) = (self.ball, (from.max - from.min).length());
                 let reach = (from.middle() - middle).length() + spread + radius;
-                let to = shaft::round(rays.at(F32x8::splat(1.001 * reach)), lanes);
+                let to = Aabb::of_points(rays.at(F32x8::splat(1.001 * reach)), lanes);
                 let few = self.crowd.among::<S>(&Shaft::new(&from, &to));
                 if few.len() > TOGETHER {
                     return self.nearest(rays, before, lanes, ties);
@@ -303,7 +303,7 @@ impl<'a> World<'a> {
         }
         let mut open = Mask8::all_lanes();
         for index in &self.endless {
-            open = open & self.bodies[*index].is_below(points, corners);
+            open = open & self.bodies[*index].is_in_front_of(points, corners);
         }
         open
     }
@@ -384,8 +384,7 @@ impl<'a> World<'a> {
         )
     }
 
-    /// Shows `look` the bodies that rays may meet, each with the lanes that may, as long as the search goes on:
-    /// `look` may give up lanes, and shorten distances.
+    /// Shows `look` the bodies that rays may meet, each with the lanes that may; `look` may shorten distances.
     #[inline(always)]
     fn visit<S: Simd>(
         &self,

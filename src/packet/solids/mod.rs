@@ -129,12 +129,11 @@ impl Solid {
         }
     }
 
-    /// Whether points are all on the side of a plane where nothing is, so that no way between any two of them meets it;
-    /// no other solid tells.
+    /// Which points lie in front of a plane, so that no way between any two of them meets it; no other solid tells.
     #[inline(always)]
-    pub fn is_below<S: Simd>(&self, points: Vec3x8<S>) -> Mask8<S> {
+    pub fn is_in_front_of<S: Simd>(&self, points: Vec3x8<S>) -> Mask8<S> {
         match self {
-            Solid::Plane(plane) => plane.is_below(points),
+            Solid::Plane(plane) => plane.is_in_front_of(points),
             _ => Mask8::no_lanes(),
         }
     }

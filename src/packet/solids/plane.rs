@@ -49,7 +49,7 @@ impl Plane {
 
     /// Which of the `points` lie in front of it.
     #[inline(always)]
-    pub fn is_below<S: Simd>(&self, points: Vec3x8<S>) -> Mask8<S> {
+    pub fn is_in_front_of<S: Simd>(&self, points: Vec3x8<S>) -> Mask8<S> {
         self.height(points).gt(F32x8::splat(0.0))
     }
 

@@ -13,13 +13,13 @@ use super::world::{OFFSET, World};
 use crate::geometry::{Hit, Ray, Solid};
 use crate::scene::{MIDDLE, Material, Rgb, Room, Scene, Softbox, linear_light};
 use crate::tracer::RayCounts;
-use crate::tracer::exposure::{Glimpse, LENS, PLACE, Sample};
 use crate::tracer::eye::Eye;
 use crate::tracer::outlook::{self, BOXES, Known, Outlook, Pool, SKY};
+use crate::tracer::samples::{Glimpse, LENS, PLACE, Sample};
 use crate::tracer::sequence::Sequence;
 use crate::tracer::studio::{
     BRIGHTEST_IN_A_MIRROR, FAR_GROUND, FREE_SKY, GROUND, HIDES, MELTS, MIRRORS_FROM, PAPER,
-    SHADOWS_FROM, purpose,
+    SHADOWS_FROM, THROWN, purpose,
 };
 use crate::tracer::ties::Ties;
 
@@ -207,7 +207,8 @@ impl<'a> Studio<'a> {
             return sky.brightness * (sky.share * FREE_SKY);
         }
         let ground = Rgb::splat(FAR_GROUND) * self.room.bounce;
-        let open = sky.brightness * sky.share + ground * (1.0 - sky.share);
+        let thrown = Rgb::splat(THROWN) * self.room.bounce;
+        let open = sky.brightness * sky.share + ground * (1.0 - sky.share) + thrown;
         let light = if draw.known.pooled[SKY] {
             Rgb::ZERO
         } else {

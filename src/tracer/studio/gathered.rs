@@ -1,9 +1,12 @@
 //! The light that falls on surfaces, from softboxes and from the sky.
 
 use super::directions::scattered;
-use super::{Draw, FAR_GROUND, FREE_SKY, Flight, HIDES, Meet, SHADOWS_FROM, Studio, purpose};
+use super::{
+    Draw, FAR_GROUND, FREE_SKY, Flight, HIDES, Meet, SHADOWS_FROM, Studio, THROWN, purpose,
+};
 use crate::lanes::{F32x8, Mask8, Simd, Vec3x8};
-use crate::packet::{Rays, shaft};
+use crate::packet::Rays;
+use crate::packet::boxes::Aabb;
 use crate::tracer::lights::LightBox;
 use crate::tracer::outlook::{self, BOXES, SKY};
 use crate::tracer::world::Between;
@@ -34,7 +37,10 @@ impl Studio<'_> {
                 let no_lanes = Mask8::no_lanes();
                 let pooled = if is_first { draw.outlooks.pooled[BOXES] } else { no_lanes };
                 let [mut came, mut open, mut others] = [Vec3x8::zero(); 3];
-                let places = shaft::round(meet.leaving, shaded.but(pooled));
+                // Softboxes that have no bit are asked by all.
+                let has_bits = self.lights.boxes.len() <= outlook::MIRROR as usize;
+                let asked = if has_bits { shaded.but(pooled) } else { shaded };
+                let places = Aabb::of_points(meet.leaving, asked);
                 for (number, light) in self.lights.boxes.iter().enumerate() {
                     let is_noted = is_first && number < outlook::MIRROR as usize;
                     let number = number as u32;
@@ -151,7 +157,8 @@ impl Studio<'_> {
         let one = F32x8::splat(1.0);
         let bounce = F32x8::splat(self.lights.bounce);
         let ground = Vec3x8::grey(F32x8::splat(FAR_GROUND as f32) * bounce);
-        let open = brightness * share + ground * (one - share);
+        let thrown = Vec3x8::grey(F32x8::splat(THROWN as f32) * bounce);
+        let open = brightness * share + ground * (one - share) + thrown;
         let asking = flight.lanes.but(draw.outlooks.pooled[SKY]);
         let mut sky = Vec3x8::zero();
         if asking.any() {

@@ -1,8 +1,9 @@
 //! Soft light: a coloured ground under a clear coat, in a room with softboxes and a sky.
 //!
 //! Every sample of a pixel asks each softbox at one point, the sky in one direction, and the mirror in
-//! one, but for what is known from others ([`super::outlook`]). What nothing stands in the way of is known
-//! without samples, so a plain that sees the whole sky has no noise.
+//! one, but for what is known: from others ([`super::outlook`]), or since nothing can be in the way
+//! ([`crate::packet::shaft`]). How bright what nothing stands in the way of is needs no samples, so a plain that sees
+//! all of the sky and the softboxes has no noise.
 
 mod directions;
 mod gathered;
@@ -11,12 +12,12 @@ mod mirror;
 use glam::Vec3;
 
 use super::RayCounts;
-use super::exposure::{Glimpse, LENS, PLACE, Sample};
 use super::eye::Eye;
 use super::lights::Lights;
 use super::optics::{facing, fresnel, grazing};
 use super::outlook::{Known, Outlooks};
 use super::pinhole::Pinhole;
+use super::samples::{Glimpse, LENS, PLACE, Sample};
 use super::sequence::{Sequence, Sequences};
 use super::ties::{Ties, Ties8};
 use super::world::{Meeting, OFFSET, World};
@@ -49,6 +50,10 @@ pub const HIDES: f64 = 16.0;
 
 /// The colour of the ground that far away.
 pub const FAR_GROUND: f64 = 0.2;
+
+/// What is thrown at surfaces counts so much, of the share that is thrown at all, as if it came from an open sky: under
+/// a black one it could not be shared out.
+pub const THROWN: f64 = 0.05;
 
 /// What is seen through glass where the ground is transparent, as pictures store it.
 pub const PAPER: f64 = 0.8;
