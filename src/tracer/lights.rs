@@ -73,6 +73,14 @@ impl Lights {
         let below = place.floor().min(F32x8::splat(steps - 1.0));
         let (share, index) = (place - below, below.to_i32());
         let [red, green, blue, part] = &self.daylight;
+        // Most surfaces face straight up: there all lanes are at the table's end, by the same rounding.
+        if !place.lt(F32x8::splat(steps)).any() {
+            let last = |column: &[f32]| {
+                let [low, high] = [column[column.len() - 2], column[column.len() - 1]];
+                F32x8::splat(low + (high - low) * 1.0)
+            };
+            return (Vec3x8::new(last(red), last(green), last(blue)), last(part));
+        }
         let brightness = Vec3x8::new(
             between(red, index, share),
             between(green, index, share),

@@ -83,7 +83,9 @@ impl Sum {
         let bright = shown(own) * cover + ground;
         self.noises[0].add(bright);
         self.noises[1].add(if one == own { bright } else { shown(one) * cover + ground });
-        outlook.weigh(Vec3::splat(cover));
+        if cover < 1.0 {
+            outlook.weigh(Vec3::splat(cover));
+        }
         self.outlook.add(&outlook);
         self.count += 1;
         self.light += light * cover;

@@ -42,7 +42,9 @@ impl Studio<'_> {
                     let direction = Vec3x8::select(is_above, blurred, exact);
                     let rays = Rays { origin: meet.leaving, direction };
                     draw.counts.reflected += u64::from(followed.bits().count_ones());
-                    let meeting = self.nearest(&rays, followed, draw);
+                    let farthest = F32x8::splat(self.world.scene.max_distance as f32);
+                    let meeting =
+                        self.world.nearest_together(&rays, farthest, followed, &mut draw.ties);
                     let met = followed & meeting.lanes();
                     if flight.depth == 0 {
                         draw.outlooks.found(outlook::MIRROR, followed.but(met), met);
