@@ -8,16 +8,15 @@ use super::ties::Ties8;
 use crate::geometry::Bounds;
 use crate::lanes::{F32x8, Mask8, Simd, Vec3x8};
 use crate::packet::Rays;
-use crate::packet::boxes::{Aabb, Hierarchy, Way};
-use crate::packet::shaft::{Crowd, Shaft};
+use crate::packet::boxes::{Hierarchy, Way};
+use crate::packet::shaft::{Crowd, Few, Shaft};
 use crate::scene::Object;
 
 /// Members of a cast that are not there.
 pub struct Absent {
     bodies: Vec<(Members, Body)>,
     boxes: Hierarchy,
-    /// The box round all of them: to ask each takes longer than to ask the rays.
-    all: Crowd,
+    crowd: Crowd,
     pub are_transparent: bool,
 }
 
@@ -47,28 +46,25 @@ impl Absent {
         }
         let bounds: Vec<Bounds> = bodies.iter().map(|(_, body)| body.aabb.bounds()).collect();
         let are_transparent = bodies.iter().any(|(_, body)| body.is_transparent);
-        let all = Aabb::union(bodies.iter().map(|(_, body)| body.aabb));
-        Absent {
-            bodies,
-            boxes: Hierarchy::new(&bounds, 0.0),
-            all: Crowd::new([all]),
-            are_transparent,
-        }
+        let crowd = Crowd::new(bodies.iter().map(|(_, body)| body.aabb));
+        Absent { bodies, boxes: Hierarchy::new(&bounds, 0.0), crowd, are_transparent }
     }
 
-    /// Whether ways in a shaft may meet any.
+    /// Those that ways in a shaft may meet.
     #[inline(always)]
-    pub fn may_be_in<S: Simd>(&self, shaft: &Shaft) -> bool {
-        self.all.is_met::<S>(shaft)
+    pub fn among<S: Simd>(&self, shaft: &Shaft) -> Few {
+        self.crowd.among::<S>(shaft)
     }
 
-    /// Adds those that rays would meet, up to the distances `before`.
+    /// Adds those that rays would meet, up to the distances `before`; if it is known that they can meet but a `few`, no
+    /// others are asked.
     #[inline(never)]
     pub fn would_meet<S: Simd>(
         &self,
         rays: &Rays<S>,
         before: F32x8<S>,
         lanes: Mask8<S>,
+        few: Option<&Few>,
         ties: &mut Ties8<S>,
     ) {
         S::run(
@@ -80,6 +76,7 @@ impl Absent {
                     rays,
                     before,
                     lanes,
+                    few,
                     ties,
                     #[inline(always)]
                     |body, lanes| body.is_met(rays, before, lanes),
@@ -88,7 +85,7 @@ impl Absent {
         );
     }
 
-    /// Adds those that would hold back light from `distance`.
+    /// Adds those of a `few` that would hold back light from `distance`.
     #[inline(never)]
     pub fn would_block<S: Simd>(
         &self,
@@ -96,6 +93,7 @@ impl Absent {
         rays: &Rays<S>,
         distance: F32x8<S>,
         lanes: Mask8<S>,
+        few: &Few,
         ties: &mut Ties8<S>,
     ) {
         S::run(
@@ -105,6 +103,7 @@ impl Absent {
                     rays,
                     distance,
                     lanes,
+                    Some(few),
                     ties,
                     #[inline(always)]
                     |body, lanes| {
@@ -128,31 +127,55 @@ impl Absent {
         }
     }
 
-    /// Adds those of which `matters` says so, among those whose boxes rays enter before `before`.
+    /// Adds those of which `matters` says so, among a few or all, if rays enter their boxes before `before`.
     #[inline(always)]
     fn each<S: Simd>(
         &self,
         rays: &Rays<S>,
         before: F32x8<S>,
         lanes: Mask8<S>,
+        few: Option<&Few>,
         ties: &mut Ties8<S>,
         matters: impl Fn(&Body, Mask8<S>) -> Mask8<S>,
     ) {
+        let (way, zero) = (Way::new(rays), F32x8::splat(0.0));
+        if let Some(few) = few {
+            for item in few {
+                let item = *item as usize;
+                let near = lanes & self.bodies[item].1.aabb.may_meet(&way, zero, before);
+                self.ask(item, near, ties, &matters);
+            }
+            return;
+        }
         self.boxes.along(
-            &Way::new(rays),
-            F32x8::splat(0.0),
+            &way,
+            zero,
             before,
             lanes,
             #[inline(always)]
             |item, before, near| {
-                let (members, body) = &self.bodies[item];
-                let new = near.but(ties.have(members[0]));
-                if new.any() {
-                    let found = new & matters(body, new);
-                    members.iter().for_each(|member| ties.add(*member, found));
-                }
+                self.ask(item, near, ties, &matters);
                 (before, lanes)
             },
         );
+    }
+
+    /// Adds one, where `matters` says so.
+    #[inline(always)]
+    fn ask<S: Simd>(
+        &self,
+        item: usize,
+        near: Mask8<S>,
+        ties: &mut Ties8<S>,
+        matters: &impl Fn(&Body, Mask8<S>) -> Mask8<S>,
+    ) {
+        let (members, body) = &self.bodies[item];
+        let new = near.but(ties.have(members[0]));
+        if new.any() {
+            let found = new & matters(body, new);
+            for member in members {
+                ties.add(*member, found);
+            }
+        }
     }
 }

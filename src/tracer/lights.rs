@@ -75,10 +75,6 @@ impl Lights {
         let [red, green, blue, part] = &self.daylight;
         // Most surfaces face straight up: there all lanes are at the table's end, by the same rounding.
         if !place.lt(F32x8::splat(steps)).any() {
-            let last = |column: &[f32]| {
-                let [low, high] = [column[column.len() - 2], column[column.len() - 1]];
-                F32x8::splat(low + (high - low) * 1.0)
-            };
             return (Vec3x8::new(last(red), last(green), last(blue)), last(part));
         }
         let brightness = Vec3x8::new(
@@ -228,6 +224,13 @@ fn above<S: Simd>(normal: Vec3x8<S>, way: Vec3x8<S>, [a, b]: &[Vec3x8<S>; 2]) ->
 fn filled<S: Simd>(length: F32x8<S>, place: F32x8<S>, scale: F32x8<S>) -> F32x8<S> {
     let (low, high) = ((length - place) * scale, (length + place) * scale);
     (math::erf(low) + math::erf(high)) * F32x8::splat(0.5)
+}
+
+/// A column's last number, as [`between`] rounds it.
+#[inline(always)]
+fn last<S: Simd>(column: &[f32]) -> F32x8<S> {
+    let [low, high] = [column[column.len() - 2], column[column.len() - 1]];
+    F32x8::splat(low + (high - low))
 }
 
 /// A column's numbers between those at `index` and at the next one.

@@ -63,8 +63,8 @@ pub struct Search<S: Simd> {
 pub struct Between {
     /// Bodies that have an end.
     bodies: Few,
-    /// Whether any member of the cast that is not there would be.
-    is_any_absent: bool,
+    /// Members of the cast that are not there, but would be.
+    absent: Few,
 }
 
 /// Where rays meet bodies.
@@ -202,7 +202,7 @@ impl<'a> World<'a> {
                         search.before = found.t * F32x8::splat(1.0 + 4.0 * f32::EPSILON);
                     },
                 );
-                self.tell_met(rays, lanes, &found, ties);
+                self.tell_met(rays, lanes, &found, None, ties);
                 found
             },
         )
@@ -225,7 +225,8 @@ impl<'a> World<'a> {
                 let ((middle, radius), spread) = (self.ball, (from.max - from.min).length());
                 let reach = (from.middle() - middle).length() + spread + radius;
                 let to = Aabb::of_points(rays.at(F32x8::splat(1.001 * reach)), lanes);
-                let few = self.crowd.among::<S>(&Shaft::new(&from, &to));
+                let shaft = Shaft::new(&from, &to);
+                let few = self.crowd.among::<S>(&shaft);
                 if few.len() > TOGETHER {
                     return self.nearest(rays, before, lanes, ties);
                 }
@@ -242,7 +243,8 @@ impl<'a> World<'a> {
                         self.meet(index, rays, near, &mut found);
                     }
                 }
-                self.tell_met(rays, lanes, &found, ties);
+                let absent = self.absent_among::<S>(&shaft);
+                self.tell_met(rays, lanes, &found, Some(&absent), ties);
                 found
             },
         )
@@ -262,19 +264,21 @@ impl<'a> World<'a> {
         found.part = closer.select_words(crossing.part, found.part);
     }
 
-    /// Adds what it depends on that rays meet that, if it is asked for.
+    /// Adds what it depends on that rays meet that, if it is asked for; of what is absent they can meet but a `few`,
+    /// where that is known.
     #[inline(always)]
     fn tell_met<S: Simd>(
         &self,
         rays: &Rays<S>,
         lanes: Mask8<S>,
         found: &Meeting<S>,
+        few: Option<&Few>,
         ties: &mut Option<Ties8<S>>,
     ) {
         if let (Some(ties), Some(absent)) = (ties, &self.absent) {
             let met = lanes & found.lanes();
             ties.add_each(U32x8::gather(&self.members, found.body), met);
-            absent.would_meet(rays, found.t, lanes, ties);
+            absent.would_meet(rays, found.t, lanes, few, ties);
         }
     }
 
@@ -282,10 +286,15 @@ impl<'a> World<'a> {
     #[inline(always)]
     pub fn between<S: Simd>(&self, from: &Aabb, to: &Aabb) -> Between {
         let shaft = Shaft::new(from, to);
-        let absent = self.absent.as_ref();
-        Between {
-            bodies: self.crowd.among::<S>(&shaft),
-            is_any_absent: absent.is_some_and(|absent| absent.may_be_in::<S>(&shaft)),
+        let bodies = self.crowd.among::<S>(&shaft);
+        Between { bodies, absent: self.absent_among::<S>(&shaft) }
+    }
+
+    #[inline(always)]
+    fn absent_among<S: Simd>(&self, shaft: &Shaft) -> Few {
+        match &self.absent {
+            Some(absent) => absent.among::<S>(shaft),
+            None => Few::new(),
         }
     }
 
@@ -298,7 +307,7 @@ impl<'a> World<'a> {
         corners: &[Vec3],
         between: &Between,
     ) -> Mask8<S> {
-        if !between.bodies.is_empty() || between.is_any_absent {
+        if !between.bodies.is_empty() || !between.absent.is_empty() {
             return Mask8::no_lanes();
         }
         let mut open = Mask8::all_lanes();
@@ -343,10 +352,11 @@ impl<'a> World<'a> {
                 if !self.transparent.is_empty() {
                     share = self.dimmed(rays, distance, open, ties);
                 }
-                if let (Some(ties), Some(absent), true) =
-                    (ties, &self.absent, between.is_any_absent)
+                if let (Some(ties), Some(absent), false) =
+                    (ties, &self.absent, between.absent.is_empty())
                 {
-                    absent.would_block(&self.materials, rays, distance, open, ties);
+                    let few = &between.absent;
+                    absent.would_block(&self.materials, rays, distance, open, few, ties);
                 }
                 share
             },
