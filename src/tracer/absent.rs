@@ -8,7 +8,7 @@ use super::ties::Ties8;
 use crate::geometry::Bounds;
 use crate::lanes::{F32x8, Mask8, Simd, Vec3x8};
 use crate::packet::Rays;
-use crate::packet::boxes::{Hierarchy, Way};
+use crate::packet::boxes::{Aabb, Hierarchy, Way};
 use crate::packet::shaft::{Crowd, Few, Shaft};
 use crate::scene::Object;
 
@@ -48,6 +48,11 @@ impl Absent {
         let are_transparent = bodies.iter().any(|(_, body)| body.is_transparent);
         let crowd = Crowd::new(bodies.iter().map(|(_, body)| body.aabb));
         Absent { bodies, boxes: Hierarchy::new(&bounds, 0.0), crowd, are_transparent }
+    }
+
+    /// The boxes round them.
+    pub fn boxes(&self) -> impl Iterator<Item = Aabb> {
+        self.bodies.iter().map(|(_, body)| body.aabb)
     }
 
     /// Those that ways in a shaft may meet.

@@ -40,7 +40,7 @@ pub struct World<'a> {
     loose: Vec<usize>,
     boxes: Hierarchy,
     endless: Vec<usize>,
-    /// All that has an end, for shafts, and the middle and the radius of a ball round it.
+    /// All that has an end, for shafts; and the middle and the radius of a ball round it and what is absent.
     crowd: Crowd,
     ball: (Vec3, f32),
     /// Which bodies are transparent.
@@ -142,10 +142,6 @@ impl<'a> World<'a> {
         // What has none is never met there.
         let ends = |body: &Body| if body.is_endless { Aabb::union([]) } else { body.aabb };
         world.crowd = Crowd::new(world.bodies.iter().map(ends));
-        let all = Aabb::union(world.bodies.iter().map(ends));
-        if all.min.is_finite() {
-            world.ball = (all.middle(), (all.max - all.min).length() / 2.0);
-        }
         world.absent = cast.map(|cast| {
             let others = (0..).zip(cast.members());
             let absent = others
@@ -155,6 +151,11 @@ impl<'a> World<'a> {
                 Body::new(&cast.envelope(object), shelf, materials)
             })
         });
+        let absent = world.absent.iter().flat_map(Absent::boxes);
+        let all = Aabb::union(world.bodies.iter().map(ends).chain(absent));
+        if all.min.is_finite() {
+            world.ball = (all.middle(), (all.max - all.min).length() / 2.0);
+        }
         world
     }
 
@@ -208,8 +209,8 @@ impl<'a> World<'a> {
         )
     }
 
-    /// The same for rays, with directions of length 1, that keep together: those from the camera, or from a plain
-    /// mirror.
+    /// The same for rays, with directions of length 1, that are likely to keep together: those from the camera, or from
+    /// mirrors.
     #[inline(never)]
     pub fn nearest_together<S: Simd>(
         &self,
