@@ -63,6 +63,21 @@ impl Aabb {
         Aabb { min: Vec3::new(x[0], y[0], z[0]), max: Vec3::new(x[1], y[1], z[1]) }
     }
 
+    /// The smallest box round the points at `t` of the `lanes` of packets of rays.
+    #[inline(always)]
+    pub fn of_packets<S: Simd>(packets: &[Rays<S>], t: F32x8<S>, lanes: Mask8<S>) -> Aabb {
+        let [first, others @ ..] = packets else {
+            return Aabb::union([]);
+        };
+        let (mut low, mut high) = (first.at(t), first.at(t));
+        for rays in others {
+            let points = rays.at(t);
+            (low, high) = (low.min(points), high.max(points));
+        }
+        let (low, high) = (Aabb::of_points(low, lanes), Aabb::of_points(high, lanes));
+        Aabb { min: low.min, max: high.max }
+    }
+
     /// The smallest box round some boxes; one of nothing where there are none.
     pub fn union(boxes: impl IntoIterator<Item = Aabb>) -> Aabb {
         let nothing = Aabb { min: Vec3::INFINITY, max: Vec3::NEG_INFINITY };

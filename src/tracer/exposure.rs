@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::eye::Eye;
 use super::outlook::{BOXES, Known, MIRROR, OPEN, Outlook, POOLS, SKY, Shares};
-use super::pixel::{Pixel, Stored};
+use super::pixel::{Stored, stored};
 use super::plane::{Plane, Spot};
 use super::samples::{Glimpse, Sample, Sum, own_shares, shown};
 use super::sizes::Sizes;
@@ -180,7 +180,7 @@ impl<E: Eye<[Sample], Glimpse>> Exposure<E> {
     }
 
     /// What the samples show: their light through the tone curve, over the background.
-    fn developed(&self, all: &Exposed, shares: &Shares) -> Pixel {
+    fn developed(&self, all: &Exposed, shares: &Shares) -> Stored {
         let light = all.outlook.under(all.light, shares);
         let cover = f64::from(all.cover) / f64::from(all.count);
         let color = if cover == 0.0 {
@@ -188,13 +188,11 @@ impl<E: Eye<[Sample], Glimpse>> Exposure<E> {
         } else {
             tone::stored(tone::neutral((light / all.cover).as_dvec3())) * cover
         };
-        match self.background {
-            Some(background) => {
-                let color = color + background * (1.0 - cover);
-                Pixel { color, cover: 1.0 }
-            }
-            None => Pixel { color, cover },
-        }
+        let (color, cover) = match self.background {
+            Some(background) => (color + background * (1.0 - cover), 1.0),
+            None => (color, cover),
+        };
+        stored([color.x, color.y, color.z, cover])
     }
 }
 
@@ -208,7 +206,7 @@ impl<E: Eye<[Sample], Glimpse>> Painter for Exposure<E> {
         (0..self.sizes.few).for_each(|_| nothing.add(&Glimpse::default(), &none, self.behind));
         nothing.looked(self.behind);
         let exposed = Exposed::new(&nothing, Plan::default());
-        (nothing, exposed, self.developed(&exposed, &none).stored())
+        (nothing, exposed, self.developed(&exposed, &none))
     }
 
     fn looks_first(&self) -> bool {
@@ -276,7 +274,7 @@ impl<E: Eye<[Sample], Glimpse>> Painter for Exposure<E> {
         if work.plan.known.pooled.contains(&true) {
             shares = self.shares(spot, looks);
         }
-        self.developed(work, &shared(shares, &work.plan.known)).stored()
+        self.developed(work, &shared(shares, &work.plan.known))
     }
 
     fn reach(&self) -> u32 {

@@ -37,6 +37,7 @@ columns! {
     diffuse: |material| material.finish.diffuse;
     specular: |material| material.finish.specular;
     shininess: |material| material.finish.shininess;
+    least_highlight: |material| least_highlight(material.finish.specular, material.finish.shininess);
     reflectivity: |material| material.finish.reflectivity;
     transparency: |material| material.finish.transparency;
     coat: |material| material.coat.coat;
@@ -45,6 +46,12 @@ columns! {
     mean_red: |material| material.texture.mean().x;
     mean_green: |material| material.texture.mean().y;
     mean_blue: |material| material.texture.mean().z;
+}
+
+/// The cosine up to which a highlight adds nothing that could be seen: 2⁻³⁰ of its light.
+fn least_highlight(specular: f64, shininess: f64) -> f64 {
+    const UNSEEN: f64 = 1.0 / (1u64 << 30) as f64;
+    if specular <= UNSEEN { f64::INFINITY } else { libm::pow(UNSEEN / specular, 1.0 / shininess) }
 }
 
 impl Materials {

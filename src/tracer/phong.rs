@@ -9,7 +9,7 @@ use super::optics::{facing, mirrored, refracted};
 use super::pinhole::Pinhole;
 use super::plane::Spot;
 use super::ties::{Ties, Ties8};
-use super::world::{OFFSET, World};
+use super::world::{Between, OFFSET, World};
 use crate::lanes::{F32x8, LANES, Mask8, Simd, Task, Vec3x8, dispatch, math};
 use crate::packet::Rays;
 use crate::packet::boxes::Aabb;
@@ -17,6 +17,9 @@ use crate::scene::Rgb;
 
 /// How often a ray may go straight through a surface before each further time counts as refraction.
 const MAX_PASSES: f32 = 100.0;
+
+/// How many packets from the camera are told together what they may meet.
+const NEIGHBOURS: usize = 4;
 
 /// Phong's eye on a world.
 pub struct Phong<'a> {
@@ -59,13 +62,12 @@ impl Places {
             y: Vec::with_capacity(count),
             side: side as f32,
         };
-        let middle = |index: u32| (index as f32 + 0.5) / side as f32;
+        let middles: Vec<f32> = (0..side).map(|part| (part as f32 + 0.5) / side as f32).collect();
         for [x, y] in spots {
-            for row in 0..side {
-                for column in 0..side {
-                    places.x.push(*x as f32 + middle(column));
-                    places.y.push(*y as f32 + middle(row));
-                }
+            let (left, top) = (*x as f32, *y as f32);
+            for row in &middles {
+                places.x.extend(middles.iter().map(|column| left + column));
+                places.y.extend(middles.iter().map(|_| top + row));
             }
         }
         places
@@ -107,17 +109,37 @@ impl<'a> Phong<'a> {
         Phong { world, pinhole, spread }
     }
 
+    /// Through up to eight places.
+    #[inline(always)]
+    fn rays<S: Simd>(&self, places: &Places, start: usize) -> Rays<S> {
+        let (x, y) = (&places.x[start..], &places.y[start..]);
+        self.pinhole.rays(F32x8::load_some(x), F32x8::load_some(y))
+    }
+
+    /// What may be met through the places from `start` that neighbouring packets have, if that is few.
+    #[inline(always)]
+    fn ahead<S: Simd>(&self, places: &Places, start: usize) -> Option<Between> {
+        if start + NEIGHBOURS * LANES > places.x.len() {
+            return None;
+        }
+        let mut packets = [self.rays::<S>(places, start); NEIGHBOURS];
+        for (index, packet) in (0..).zip(&mut packets).skip(1) {
+            *packet = self.rays(places, start + index * LANES);
+        }
+        self.world.ahead(&packets, Mask8::all_lanes())
+    }
+
     /// What comes back through up to eight places; the lanes behind them have no meaning.
     #[inline(always)]
     fn packet<S: Simd>(
         &self,
         places: &Places,
         start: usize,
+        ahead: Option<&Between>,
         ties: Option<&mut Vec<Ties>>,
     ) -> (Vec3x8<S>, Walk<S>) {
         let count = (places.x.len() - start).min(LANES);
-        let x = F32x8::load_some(&places.x[start..]);
-        let rays = self.pinhole.rays(x, F32x8::load_some(&places.y[start..]));
+        let rays = self.rays(places, start);
         let lanes = Mask8::first(count);
         let (zero, one) = (F32x8::splat(0.0), F32x8::splat(1.0));
         let mut found = ties.is_some().then(Ties8::new);
@@ -142,7 +164,7 @@ impl<'a> Phong<'a> {
             ties: found,
         };
         walk.counts.primary = count as u64;
-        let color = self.radiance(&flight, &mut walk);
+        let color = self.radiance(&flight, ahead, &mut walk);
         if let (Some(ties), Some(found)) = (ties, &walk.ties) {
             ties.extend_from_slice(&found.store()[..count]);
         }
@@ -150,18 +172,22 @@ impl<'a> Phong<'a> {
     }
 
     #[inline(never)]
-    fn radiance<S: Simd>(&self, flight: &Flight<S>, walk: &mut Walk<S>) -> Vec3x8<S> {
+    fn radiance<S: Simd>(
+        &self,
+        flight: &Flight<S>,
+        ahead: Option<&Between>,
+        walk: &mut Walk<S>,
+    ) -> Vec3x8<S> {
         S::run(
             #[inline(always)]
             || {
                 let Flight { rays, lanes, .. } = flight;
                 let (world, scene) = (&self.world, self.world.scene);
-                let meeting = world.nearest_together(
-                    rays,
-                    F32x8::splat(scene.max_distance as f32),
-                    *lanes,
-                    &mut walk.ties,
-                );
+                let (before, ties) = (F32x8::splat(scene.max_distance as f32), &mut walk.ties);
+                let meeting = match ahead {
+                    Some(ahead) => world.nearest_of(ahead, rays, before, *lanes, ties),
+                    None => world.nearest_together(rays, before, *lanes, ties),
+                };
                 let hit = *lanes & meeting.lanes();
                 walk.hits = walk.hits.or(Some(hit));
                 walk.footprints.meet_nothing(lanes.but(hit));
@@ -212,7 +238,7 @@ impl<'a> Phong<'a> {
                     let lit_by = light * (diffuse * incidence);
                     scattered += Vec3x8::select(lit, lit_by, Vec3x8::zero());
                     let highlight = mirrored.dot(towards);
-                    let glossy = lit & highlight.gt(zero);
+                    let glossy = lit & highlight.gt(materials.least_highlight(sight.material));
                     if glossy.any() {
                         let power = math::pow(highlight, materials.shininess(sight.material));
                         let gloss = light * (specular * power);
@@ -290,7 +316,7 @@ impl<'a> Phong<'a> {
             return Vec3x8::zero();
         }
         *count(&mut walk.counts) += u64::from(lanes.bits().count_ones());
-        let seen = self.radiance(&Flight { lanes, ..flight }, walk);
+        let seen = self.radiance(&Flight { lanes, ..flight }, None, walk);
         Vec3x8::select(lanes, seen, Vec3x8::zero())
     }
 }
@@ -325,8 +351,12 @@ impl Task for Look<'_, '_, Shade> {
     fn run<S: Simd>(self) -> RayCounts {
         let Look { eye, places, seen, mut ties } = self;
         let mut counts = RayCounts::default();
-        for start in (0..places.x.len()).step_by(LANES) {
-            let (color, walk) = eye.packet::<S>(places, start, ties.as_deref_mut());
+        let mut ahead = None;
+        for (index, start) in (0..places.x.len()).step_by(LANES).enumerate() {
+            if index % NEIGHBOURS == 0 {
+                ahead = eye.ahead::<S>(places, start);
+            }
+            let (color, walk) = eye.packet::<S>(places, start, ahead.as_ref(), ties.as_deref_mut());
             let count = (places.x.len() - start).min(LANES);
             seen.extend_from_slice(&walk.shades(color)[..count]);
             counts = counts + walk.counts;
@@ -342,8 +372,12 @@ impl Task for Look<'_, '_, Seen> {
     fn run<S: Simd>(self) -> RayCounts {
         let Look { eye, places, seen, mut ties } = self;
         let mut counts = RayCounts::default();
-        for start in (0..places.x.len()).step_by(LANES) {
-            let (color, walk) = eye.packet::<S>(places, start, ties.as_deref_mut());
+        let mut ahead = None;
+        for (index, start) in (0..places.x.len()).step_by(LANES).enumerate() {
+            if index % NEIGHBOURS == 0 {
+                ahead = eye.ahead::<S>(places, start);
+            }
+            let (color, walk) = eye.packet::<S>(places, start, ahead.as_ref(), ties.as_deref_mut());
             let count = (places.x.len() - start).min(LANES);
             let (shades, footprints) = (walk.shades(color), walk.footprints.store());
             for (shade, footprint) in shades.into_iter().zip(footprints).take(count) {

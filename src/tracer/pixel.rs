@@ -4,52 +4,21 @@ use image::{DynamicImage, Rgb as Rgb8, RgbImage, Rgba, RgbaImage};
 use rayon::prelude::*;
 
 use super::plane::{Plane, Spot};
-use crate::scene::Rgb;
-
-/// What a pixel, or a part of it, shows. The mean of any number of equal ones is the same again: sums of so few
-/// f32 are exact in f64.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Pixel {
-    /// As it is stored, 0 to 1, times `cover`.
-    pub color: Rgb,
-    /// How much of it is not transparent, 0 to 1.
-    pub cover: f64,
-}
 
 /// Red, green, blue and alpha, not multiplied.
 pub type Stored = [u8; 4];
 
-impl Pixel {
-    /// As a picture stores it; the colour of what is hardly there is that of what is there.
-    pub fn stored(self) -> Stored {
-        let color = match self.cover {
-            1.0 => self.color,
-            0.0 => Rgb::ZERO,
-            cover => self.color / cover,
-        };
-        let [red, green, blue] = color.to_array().map(byte);
-        [red, green, blue, byte(self.cover)]
-    }
+/// A pixel as a picture stores it: of red, green and blue, each from 0 to 1 and times cover, and cover, how much of it is
+/// not transparent. The colour of what is hardly there is that of what is there.
+#[inline(always)]
+pub fn stored([red, green, blue, cover]: [f64; 4]) -> Stored {
+    let whole = if cover > 0.0 { cover } else { 1.0 };
+    [byte(red / whole), byte(green / whole), byte(blue / whole), byte(cover)]
 }
 
+#[inline(always)]
 fn byte(share: f64) -> u8 {
     (share.clamp(0.0, 1.0) * 255.0 + 0.5) as u8
-}
-
-impl std::ops::Add for Pixel {
-    type Output = Pixel;
-
-    fn add(self, other: Pixel) -> Pixel {
-        Pixel { color: self.color + other.color, cover: self.cover + other.cover }
-    }
-}
-
-impl std::ops::Div<f64> for Pixel {
-    type Output = Pixel;
-
-    fn div(self, by: f64) -> Pixel {
-        Pixel { color: self.color / by, cover: self.cover / by }
-    }
 }
 
 /// The picture, with its alpha channel only if it is said to be transparent.

@@ -5,12 +5,13 @@ use glam::Vec3;
 use super::eye::Eye;
 use super::footprint::Footprint;
 use super::phong::{Places, Seen, Shade};
-use super::pixel::{Pixel, Stored};
+use super::pixel::{Stored, stored};
 use super::plane::{Plane, Spot};
 use super::sketch::Painter;
 use super::ties::Ties;
 use super::{Antialiasing, RayCounts};
-use crate::scene::{Rgb, Scene};
+use crate::lanes::{Simd, Task, dispatch};
+use crate::scene::Scene;
 
 /// Paints what an eye sees.
 pub struct Sampling<E> {
@@ -52,28 +53,59 @@ impl<E: Eye<Places, Seen> + Eye<Places, Shade>> Sampling<E> {
         let mut seen: Vec<Shade> = Vec::with_capacity(spots.len() * parts);
         let mut each = ties.is_some().then(Vec::new);
         let counts = self.eye.see(&Places::new(spots, side), &mut seen, each.as_mut());
-        let count = f64::from(side * side);
-        made.extend(seen.chunks_exact(parts).map(|seen| {
-            if self.is_transparent {
-                let sum = seen.iter().fold(Pixel::default(), |sum, seen| sum + self.pixel(seen));
-                return (sum / count).stored();
-            }
-            let sum = seen.iter().fold(Rgb::ZERO, |sum, seen| sum + self.pixel(seen).color);
-            Pixel { color: sum / count, cover: 1.0 }.stored()
-        }));
+        let nothing = self.pixel(&self.nothing.shade);
+        let is_transparent = self.is_transparent;
+        dispatch(Means { seen: &seen, parts, is_transparent, nothing, made });
         if let (Some(ties), Some(each)) = (ties, each) {
             ties.extend(each.chunks_exact(parts).map(Ties::from_iter));
         }
         counts
     }
 
-    fn pixel(&self, seen: &Shade) -> Pixel {
-        if self.is_transparent && !seen.hits {
-            return Pixel::default();
-        }
-        // What is too bright is as bright as can be, also beside what is not.
-        Pixel { color: seen.color.min(Vec3::ONE).as_dvec3(), cover: 1.0 }
+    fn pixel(&self, seen: &Shade) -> Stored {
+        stored(parts_of(seen, self.is_transparent).map(f64::from))
     }
+}
+
+/// The means of each `parts` of what is seen.
+struct Means<'a> {
+    seen: &'a [Shade],
+    parts: usize,
+    is_transparent: bool,
+    /// What a pixel shows where nothing is met.
+    nothing: Stored,
+    made: &'a mut Vec<Stored>,
+}
+
+impl Task for Means<'_> {
+    type Output = ();
+
+    /// Sums of so few f32 are exact in f64: the mean of any number of equal ones is the same again.
+    #[inline(always)]
+    fn run<S: Simd>(self) {
+        for seen in self.seen.chunks_exact(self.parts) {
+            let mut means = [0.0; 4];
+            let mut hits = false;
+            for shade in seen {
+                hits |= shade.hits;
+                for (sum, part) in means.iter_mut().zip(parts_of(shade, self.is_transparent)) {
+                    *sum += f64::from(part);
+                }
+            }
+            for mean in &mut means {
+                *mean /= self.parts as f64;
+            }
+            self.made.push(if hits { stored(means) } else { self.nothing });
+        }
+    }
+}
+
+/// Red, green and blue, times cover, and cover.
+#[inline(always)]
+fn parts_of(seen: &Shade, is_transparent: bool) -> [f32; 4] {
+    // What is too bright is as bright as can be, also beside what is not.
+    let Vec3 { x, y, z } = seen.color.min(Vec3::ONE);
+    if is_transparent && !seen.hits { [0.0; 4] } else { [x, y, z, 1.0] }
 }
 
 impl<E: Eye<Places, Seen> + Eye<Places, Shade>> Painter for Sampling<E> {
@@ -81,7 +113,7 @@ impl<E: Eye<Places, Seen> + Eye<Places, Shade>> Painter for Sampling<E> {
     type Work = Stored;
 
     fn nothing(&self) -> (Seen, Stored, Stored) {
-        let stored = self.pixel(&self.nothing.shade).stored();
+        let stored = self.pixel(&self.nothing.shade);
         (self.nothing, stored, stored)
     }
 
@@ -120,7 +152,7 @@ impl<E: Eye<Places, Seen> + Eye<Places, Shade>> Painter for Sampling<E> {
         let counts = self.means(&some, &mut means, each.as_mut());
         let (mut means, mut each) = (means.into_iter(), each.into_iter().flatten());
         let pairs = || spots.iter().zip(&more);
-        let own = |spot: &Spot| self.pixel(&looks.at(*spot).shade).stored();
+        let own = |spot: &Spot| self.pixel(&looks.at(*spot).shade);
         made.extend(pairs().map(|(spot, more)| {
             let mean = if *more { means.next() } else { None };
             mean.unwrap_or_else(|| own(spot))

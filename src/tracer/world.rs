@@ -221,34 +221,49 @@ impl<'a> World<'a> {
     ) -> Meeting<S> {
         S::run(
             #[inline(always)]
-            || {
-                let from = Aabb::of_points(rays.origin, lanes);
-                let ((middle, radius), spread) = (self.ball, (from.max - from.min).length());
-                let reach = (from.middle() - middle).length() + spread + radius;
-                let to = Aabb::of_points(rays.at(F32x8::splat(1.001 * reach)), lanes);
-                let shaft = Shaft::new(&from, &to);
-                let few = self.crowd.among::<S>(&shaft);
-                if few.len() > TOGETHER {
-                    return self.nearest(rays, before, lanes, ties);
-                }
-                let (way, zero) = (Way::new(rays), F32x8::splat(0.0));
-                let mut found = Meeting::nothing(before);
-                for index in &self.endless {
-                    self.meet(*index, rays, lanes, &mut found);
-                }
-                for index in few {
-                    let index = index as usize;
-                    let before = found.t * F32x8::splat(1.0 + 4.0 * f32::EPSILON);
-                    let near = lanes & self.bodies[index].aabb.may_meet(&way, zero, before);
-                    if near.any() {
-                        self.meet(index, rays, near, &mut found);
-                    }
-                }
-                let absent = self.absent_among::<S>(&shaft);
-                self.tell_met(rays, lanes, &found, Some(&absent), ties);
-                found
+            || match self.ahead(std::slice::from_ref(rays), lanes) {
+                Some(ahead) => self.nearest_of(&ahead, rays, before, lanes, ties),
+                None => self.nearest(rays, before, lanes, ties),
             },
         )
+    }
+
+    /// What the `lanes` of packets of such rays may meet; if that is not few, nothing.
+    #[inline(always)]
+    pub fn ahead<S: Simd>(&self, packets: &[Rays<S>], lanes: Mask8<S>) -> Option<Between> {
+        let from = Aabb::of_packets(packets, F32x8::splat(0.0), lanes);
+        let ((middle, radius), spread) = (self.ball, (from.max - from.min).length());
+        let reach = (from.middle() - middle).length() + spread + radius;
+        let to = Aabb::of_packets(packets, F32x8::splat(1.001 * reach), lanes);
+        let ahead = self.between::<S>(&from, &to);
+        (ahead.bodies.len() <= TOGETHER).then_some(ahead)
+    }
+
+    /// The nearest body in front of rays that can meet, but for endless ones, none that is not `ahead`.
+    #[inline(always)]
+    pub fn nearest_of<S: Simd>(
+        &self,
+        ahead: &Between,
+        rays: &Rays<S>,
+        before: F32x8<S>,
+        lanes: Mask8<S>,
+        ties: &mut Option<Ties8<S>>,
+    ) -> Meeting<S> {
+        let (way, zero) = (Way::new(rays), F32x8::splat(0.0));
+        let mut found = Meeting::nothing(before);
+        for index in &self.endless {
+            self.meet(*index, rays, lanes, &mut found);
+        }
+        for index in &ahead.bodies {
+            let index = *index as usize;
+            let before = found.t * F32x8::splat(1.0 + 4.0 * f32::EPSILON);
+            let near = lanes & self.bodies[index].aabb.may_meet(&way, zero, before);
+            if near.any() {
+                self.meet(index, rays, near, &mut found);
+            }
+        }
+        self.tell_met(rays, lanes, &found, Some(&ahead.absent), ties);
+        found
     }
 
     /// Takes the first crossing of a body where it is the nearest so far.
