@@ -52,10 +52,14 @@ fn run() -> anyhow::Result<ExitCode> {
             let summary = summary?;
             terminal.detail(&rays(&summary.rays));
             let stopped = if summary.cancelled { "stopped: " } else { "" };
+            let films = match summary.films {
+                0 => String::new(),
+                films => format!(", {}", count(films as u64, "film")),
+            };
             terminal.say(&format!(
-                "{stopped}{} {} in {}; games: {} whole, {} in part, {} skipped",
-                summary.frames,
-                if summary.frames == 1 { "frame" } else { "frames" },
+                "{stopped}{}{} in {}; games: {} whole, {} in part, {} skipped",
+                count(summary.frames, "frame"),
+                films,
                 job.out.display(),
                 summary.rendered,
                 summary.partial,
@@ -103,6 +107,11 @@ fn diagram(job: &DiagramJob, terminal: &Terminal) -> anyhow::Result<ExitCode> {
     let summary = job::diagram(job, terminal, &mut io::stdout().lock())?;
     terminal.detail(&rays(&summary.rays));
     Ok(whole(summary.is_whole))
+}
+
+fn count(number: u64, what: &str) -> String {
+    let ending = if number == 1 { "" } else { "s" };
+    format!("{number} {what}{ending}")
 }
 
 fn whole(is_whole: bool) -> ExitCode {

@@ -3,6 +3,7 @@
 mod film;
 mod marks;
 mod picture;
+mod preset;
 mod print;
 mod subject;
 pub mod table;
@@ -18,7 +19,7 @@ use lightsquare::game::{Moment, Selection};
 use lightsquare::job::{
     BenchJob, DiagramJob, ExportJob, InspectJob, Listing, PictureSettings, RenderJob,
 };
-use lightsquare::output::PictureFormat;
+use lightsquare::output::{FORMATS, PictureFormat};
 
 use crate::progress::{ProgressMode, Verbosity};
 use film::FilmArgs;
@@ -127,6 +128,8 @@ const RENDER_EXAMPLES: &str = "\
 Examples:
   lightsquare render games/opera-1858.pgn
   lightsquare render games/*.pgn --size 640x360 --out pictures
+  lightsquare render games/opera-1858.pgn --for wide --no-frames
+  lightsquare render games/opera-1858.pgn --size 720x720 --film gif --film mp4 --animate
   lightsquare render games/opera-1858.pgn --from 12w --to end --animate --orbit 90
   curl -s https://example.org/games.pgn | lightsquare render - --select 1:3,10
 
@@ -194,7 +197,7 @@ pub struct RenderArgs {
 pub struct DiagramArgs {
     #[command(flatten)]
     subject: SubjectArgs,
-    /// The picture's file, .png or .bmp; - is the standard output, as PNG
+    /// The picture's file, .png, .jpg, .bmp, .tiff or .webp; - is the standard output, as PNG
     #[arg(short, long, value_name = "FILE", default_value = "out/diagram.png")]
     output: PathBuf,
     #[command(flatten)]
@@ -273,7 +276,14 @@ impl RenderArgs {
         if self.out == Path::new("-") {
             bail!(UsageError("--out: expected a folder, found `-`".to_owned()));
         }
+        let mut picture = self.picture;
+        if let Some(preset) = self.film.preset() {
+            picture.suit(preset);
+        }
+        let picture = picture.settings(Look::default())?;
         Ok(RenderJob {
+            names: self.film.names(&picture.config)?,
+            films: self.film.films(&picture.config)?,
             inputs: self.inputs,
             out: self.out,
             selection: self.select,
@@ -282,7 +292,7 @@ impl RenderArgs {
             variations: self.variations,
             showing: self.film.showing(),
             frames: self.film.frames,
-            picture: self.picture.settings(Look::default())?,
+            picture,
         })
     }
 }
@@ -292,7 +302,9 @@ impl DiagramArgs {
         let to_stdout = self.output == Path::new("-");
         if !to_stdout && PictureFormat::of(&self.output).is_none() {
             let name = self.output.display();
-            bail!(UsageError(format!("--output: expected a .png or .bmp file, found `{name}`")));
+            let known: Vec<&str> = FORMATS.iter().map(|(ending, _)| *ending).collect();
+            let known = known.join(", .");
+            bail!(UsageError(format!("--output: expected a file of .{known}, found `{name}`")));
         }
         let (picture, dpi) = self.settings()?;
         keep_transparency("--output", &picture.config, &self.output)?;
@@ -363,8 +375,8 @@ impl InspectArgs {
 
 /// Refuses to write a transparent picture in a format that is not.
 fn keep_transparency(flag: &str, config: &Config, output: &Path) -> Result<(), UsageError> {
-    let is_transparent = config.scheme().background.is_none();
-    if is_transparent && PictureFormat::of(output) == Some(PictureFormat::Bmp) {
+    let has_alpha = PictureFormat::of(output).is_none_or(PictureFormat::has_alpha);
+    if config.is_transparent() && !has_alpha {
         let name = output.display();
         return Err(UsageError(format!(
             "{flag}: expected a .png file for a transparent picture, found `{name}`"

@@ -15,6 +15,7 @@ use lightsquare::job::PictureSettings;
 
 use super::UsageError;
 use super::marks::MarksArg;
+use super::preset::Preset;
 use super::values::{one_of, rays, size, threads};
 
 /// What every picture has; the same words for every command.
@@ -116,6 +117,13 @@ enum LookArg {
 }
 
 impl PictureArgs {
+    /// Makes pictures suit the place that a film is for, in all that was not asked for otherwise.
+    pub fn suit(&mut self, place: Preset) {
+        self.size = self.size.or(Some(place.size()));
+        self.camera = self.camera.or(place.camera());
+        self.captions |= place.captions();
+    }
+
     /// The settings: flags over the file, the file over the look.
     /// The look is `look` where none is named.
     pub fn settings(&self, look: Look) -> anyhow::Result<PictureSettings> {

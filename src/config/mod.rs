@@ -334,6 +334,11 @@ impl Config {
         sections::show(self)
     }
 
+    /// Whether pictures have no background.
+    pub fn is_transparent(&self) -> bool {
+        self.scheme().background.is_none()
+    }
+
     /// What all parts are made of: the theme, and what stands over it.
     pub fn scheme(&self) -> Scheme {
         self.parts_in_force().scheme()

@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use rayon::Scope;
 
 use super::Progress;
-use crate::output::{OutputError, RepeatedPicture};
+use crate::output::{OutputError, PictureFormat, RepeatedPicture};
 
 /// A picture that is to be written.
 pub struct Sheet {
@@ -20,6 +20,7 @@ pub struct Sheet {
 /// Where sheets wait until a thread of the pool has nothing to trace.
 pub struct Desk<'a> {
     progress: &'a dyn Progress,
+    format: PictureFormat,
     /// How many sheets may wait.
     room: usize,
     waiting: AtomicUsize,
@@ -32,11 +33,12 @@ pub struct Desk<'a> {
 const SPARE: usize = 2;
 
 impl<'a> Desk<'a> {
-    /// For sheets that are written by the current pool. Where one thread does all, none waits.
-    pub fn new(progress: &'a dyn Progress) -> Desk<'a> {
+    /// For sheets that are written in one format by the current pool. Where one thread does all, none waits.
+    pub fn new(progress: &'a dyn Progress, format: PictureFormat) -> Desk<'a> {
         let threads = rayon::current_num_threads();
         Desk {
             progress,
+            format,
             room: if threads > 1 { threads + SPARE } else { 0 },
             waiting: AtomicUsize::new(0),
             written: AtomicU64::new(0),
@@ -61,7 +63,7 @@ impl<'a> Desk<'a> {
     }
 
     fn write(&self, Sheet { path, picture, texts }: &Sheet) {
-        match picture.write_png(path, texts) {
+        match picture.write(path, self.format, texts) {
             Ok(()) => {
                 self.written.fetch_add(1, Ordering::Relaxed);
                 self.progress.frame_done();
@@ -119,7 +121,7 @@ mod tests {
         let progress = Counter(AtomicU64::new(0));
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let (count, outcome) = pool.install(|| {
-            let desk = Desk::new(&progress);
+            let desk = Desk::new(&progress, PictureFormat::Png);
             rayon::in_place_scope(|scope| {
                 for path in paths {
                     desk.take(sheet(path.clone()), scope);

@@ -7,13 +7,16 @@ use std::path::{Path, PathBuf};
 use super::batch::{Batch, Entry, Part, folder_names, game_folder, read_batch};
 use super::captions::GameCaptions;
 use super::desk::{Desk, Sheet};
+use super::reels::{Films, Reels};
 use super::report::{FrameRow, Manifest, ReportLine, Status, VariationLine, tags, texts};
-use super::studio::{PictureSettings, Studio};
+use super::studio::{PictureSettings, Studio, shots};
 use super::{JobError, Progress, Showing};
+use crate::config::Config;
 use crate::game::{Game, Moment, Selection, shortened};
 use crate::notation::Color;
 use crate::output::{
-    frame_name, manifest_name, prepare_folder, remove_frames, write_json, write_json_lines,
+    Cut, FrameNames, PictureFormat, film_name, manifest_name, prepare_folder, remove_frames,
+    write_json, write_json_lines,
 };
 use crate::timeline::{Bodies, Script, Timeline};
 use crate::tracer::RayCounts;
@@ -35,6 +38,9 @@ pub struct RenderJob {
     pub showing: Showing,
     /// Which frames of each game, counted as in the whole; all when `None`.
     pub frames: Option<RangeInclusive<usize>>,
+    /// How frames are named as pictures; there are none when `None`.
+    pub names: Option<FrameNames>,
+    pub films: Films,
     pub picture: PictureSettings,
 }
 
@@ -44,8 +50,10 @@ pub struct Summary {
     pub rendered: usize,
     pub partial: usize,
     pub skipped: usize,
-    /// Pictures that were written.
+    /// Pictures that were written, or went into films.
     pub frames: u64,
+    /// Films that were written.
+    pub films: usize,
     pub rays: RayCounts,
     /// Whether the job was told to stop.
     pub cancelled: bool,
@@ -177,7 +185,9 @@ impl Run<'_> {
     ) -> Result<(), JobError> {
         let folder = &variation.map_or(folder.to_owned(), |name| folder.join(name));
         prepare_folder(folder)?;
-        remove_frames(folder, self.job.frames.as_ref())?;
+        let usual = || FrameNames::new(PictureFormat::Png);
+        let wanted = self.job.frames.as_ref();
+        remove_frames(folder, &self.job.names.clone().unwrap_or_else(usual), wanted)?;
         let players = [Color::White, Color::Black].map(|color| shortened(game.player(color), 60));
         self.progress.game(&players.join(" – "));
         let timeline =
@@ -185,9 +195,15 @@ impl Run<'_> {
                 JobError::Path { file: batch.file.clone(), game: game.number, error }
             })?;
         let captions = GameCaptions::new(game, self.job.picture.config.captions);
+        let cut = self.cut(&timeline, &captions, part);
+        let film = |format| folder.join(film_name(format, wanted));
+        let reels = Reels::begin(&self.job.films, &cut.cut, film)?;
         let mut rows = Vec::new();
-        let desk = Desk::new(self.progress);
+        let format = self.job.names.as_ref().map_or(PictureFormat::Png, FrameNames::format);
+        let desk = Desk::new(self.progress, format);
+        let mut filmed = 0;
         rayon::in_place_scope(|scope| {
+            let mut begins = cut.begins.iter().peekable();
             for index in part.frames.clone() {
                 self.summary.cancelled = self.progress.is_cancelled();
                 if self.summary.cancelled || desk.has_failed() {
@@ -197,15 +213,29 @@ impl Run<'_> {
                 let coming = (index + 1..part.frames.end).map(|index| timeline.frame(index));
                 let content = captions.of(&frame);
                 let picture = self.studio.picture(&frame, content.as_ref(), coming);
-                let name = frame_name(index);
-                let (path, texts) = (folder.join(&name), texts(game, &frame));
-                desk.take(Sheet { path, picture, texts }, scope);
+                if begins.next_if(|begin| **begin == index).is_some() && !reels.add(&picture) {
+                    break;
+                }
+                let name = self.job.names.as_ref().map(|names| names.name(index));
+                match &name {
+                    Some(name) => {
+                        let (path, texts) = (folder.join(name), texts(game, &frame));
+                        desk.take(Sheet { path, picture, texts }, scope);
+                    }
+                    None => {
+                        filmed += 1;
+                        self.progress.frame_done();
+                    }
+                }
                 rows.push(FrameRow::new(name, game, &frame));
             }
         });
         let (written, outcome) = desk.close();
-        self.summary.frames += written;
+        self.summary.frames += written + filmed;
+        let (films, filming) = reels.end();
+        self.summary.films += films;
         outcome?;
+        filming?;
         let manifest = Manifest {
             file: &batch.file,
             game: game.number,
@@ -219,8 +249,43 @@ impl Run<'_> {
             film: self.job.showing.animate.then_some(self.job.showing.film),
             orbit: self.job.showing.orbit,
             orbits_each_move: self.job.showing.orbits_each_move,
+            films: if self.summary.cancelled { Vec::new() } else { self.film_names() },
             frames: rows,
         };
-        Ok(write_json(&folder.join(manifest_name(self.job.frames.as_ref())), &manifest)?)
+        Ok(write_json(&folder.join(manifest_name(wanted)), &manifest)?)
     }
+
+    fn film_names(&self) -> Vec<String> {
+        let wanted = self.job.frames.as_ref();
+        self.job.films.formats.iter().map(|format| film_name(*format, wanted)).collect()
+    }
+
+    /// The shots of a part of a game, if any film is made of it.
+    fn cut(&self, timeline: &Timeline, captions: &GameCaptions, part: &Part) -> Shots {
+        let settings = &self.job.picture;
+        let Config { width, height, .. } = settings.config;
+        let fps = self.script.film.fps;
+        let mut cut = Cut { size: [width, height], fps, ends: Vec::new() };
+        if self.job.films.formats.is_empty() {
+            return Shots { begins: Vec::new(), cut };
+        }
+        let frames = part.frames.clone().map(|index| {
+            let frame = timeline.frame(index);
+            let content = captions.of(&frame);
+            (frame, content)
+        });
+        let first = part.frames.start;
+        let begins: Vec<usize> = shots(settings, frames).map(|shot| first + shot).collect();
+        let start = timeline.begins(first);
+        let next = begins.iter().copied().skip(1).chain([part.frames.end]);
+        cut.ends = next.map(|index| timeline.begins(index) - start).collect();
+        Shots { begins, cut }
+    }
+}
+
+/// The pictures of a film that differ.
+struct Shots {
+    /// The first frame of each.
+    begins: Vec<usize>,
+    cut: Cut,
 }

@@ -115,13 +115,18 @@ pub struct Manifest<'a> {
     pub orbit: f64,
     /// Whether the camera turns so far with each move.
     pub orbits_each_move: bool,
+    /// The films beside it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub films: Vec<String>,
     pub frames: Vec<FrameRow>,
 }
 
 /// One picture of a manifest.
 #[derive(Serialize)]
 pub struct FrameRow {
-    file: String,
+    /// Nothing where the frame is only in films.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    file: Option<String>,
     /// Seconds from the beginning of the film.
     time: f64,
     /// Half-moves before the position that is shown, or that the move under way leaves; so `san`,
@@ -142,7 +147,7 @@ pub struct FrameRow {
 }
 
 impl FrameRow {
-    pub fn new(file: String, game: &Game, frame: &Frame) -> FrameRow {
+    pub fn new(file: Option<String>, game: &Game, frame: &Frame) -> FrameRow {
         let placement = game.placement(frame.ply);
         FrameRow {
             file,

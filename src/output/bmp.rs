@@ -4,9 +4,10 @@ use std::io::{self, Write};
 use std::ops::Range;
 
 use image::codecs::bmp::BmpEncoder;
-use image::{DynamicImage, ExtendedColorType, ImageError};
+use image::{DynamicImage, ExtendedColorType};
 
 use super::per_metre;
+use super::picture::of_image;
 
 /// Where the header has the pixels a metre, to the right and upwards.
 const PIXELS_PER_METRE: Range<usize> = 38..46;
@@ -21,10 +22,7 @@ pub fn encode_bmp(picture: &DynamicImage, dpi: Option<u32>, mut out: impl Write)
     let mut bytes = Vec::new();
     BmpEncoder::new(&mut bytes)
         .encode(rgb.as_raw(), rgb.width(), rgb.height(), ExtendedColorType::Rgb8)
-        .map_err(|error| match error {
-            ImageError::IoError(error) => error,
-            other => io::Error::other(other),
-        })?;
+        .map_err(of_image)?;
     if let (Some(dpi), Some(fields)) = (dpi, bytes.get_mut(PIXELS_PER_METRE)) {
         fields.copy_from_slice(&[per_metre(dpi).to_le_bytes(); 2].concat());
     }

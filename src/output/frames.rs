@@ -6,10 +6,119 @@ use std::ops::RangeInclusive;
 use std::path::Path;
 
 use super::OutputError;
+use super::film::{FILM_FORMATS, FilmFormat};
+use super::picture::{FORMATS, PictureFormat};
 
-/// The file name of picture `index`: `frame_00000.png`.
-pub fn frame_name(index: usize) -> String {
-    format!("frame_{index:05}.png")
+/// Names of numbered pictures in one folder: `frame_00000.png`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FrameNames {
+    before: String,
+    /// At least so many digits.
+    digits: usize,
+    after: String,
+    format: PictureFormat,
+}
+
+/// Digits of a number that no name asks otherwise for, and the most that one may ask for.
+const DIGITS: usize = 5;
+const MOST_DIGITS: usize = 20;
+
+impl FrameNames {
+    /// `frame_00000` with the ending of a format.
+    pub fn new(format: PictureFormat) -> FrameNames {
+        let after = format!(".{}", format.ending());
+        FrameNames { before: "frame_".to_owned(), digits: DIGITS, after, format }
+    }
+
+    /// Names after a pattern, where the number stands as `%05d` or as `#####`. The ending says the format; there may be
+    /// none where `format` says it.
+    ///
+    /// # Errors
+    /// What is wrong with the pattern, in words.
+    pub fn parse(pattern: &str, format: Option<PictureFormat>) -> Result<FrameNames, String> {
+        let wrong = |what: &str| {
+            Err(format!(
+                "`{pattern}` {what}, expected a name such as frame_%05d.png or frame_#####.png"
+            ))
+        };
+        let Some((before, digits, after)) = number_in(pattern) else {
+            return wrong("has no number, or more than one");
+        };
+        if !(1..=MOST_DIGITS).contains(&digits) {
+            return wrong("asks for too many digits");
+        }
+        let is_plain = |c: char| {
+            !c.is_control() && !matches!(c, '/' | '\\' | ':' | '*' | '?' | '"' | '<' | '>' | '|')
+        };
+        if !pattern.chars().all(is_plain) || pattern.starts_with('.') || pattern.starts_with(' ') {
+            return wrong("is no file name");
+        }
+        // A number on either side would be read as part of this one.
+        if before.ends_with(|c: char| c.is_ascii_digit())
+            || after.starts_with(|c: char| c.is_ascii_digit())
+        {
+            return wrong("has digits beside the number");
+        }
+        let (stem, ending) = after.rsplit_once('.').unwrap_or((after, ""));
+        let found = PictureFormat::named(ending);
+        let format = match (found, format) {
+            (Some(found), Some(format)) if found != format => {
+                return Err(format!(
+                    "`{pattern}` ends as {} does, and --format asks for {}",
+                    found.ending(),
+                    format.ending()
+                ));
+            }
+            (Some(found), _) => {
+                let after = after.to_owned();
+                return Ok(FrameNames { before: before.to_owned(), digits, after, format: found });
+            }
+            (None, _)
+                if !stem.is_empty() && !ending.is_empty()
+                    || (stem.is_empty() && after.starts_with('.')) =>
+            {
+                let known: Vec<&str> = FORMATS.iter().map(|(ending, _)| *ending).collect();
+                return Err(format!(
+                    "`{pattern}` ends as no picture does, expected .{}",
+                    known.join(", .")
+                ));
+            }
+            (None, format) => format.unwrap_or(PictureFormat::Png),
+        };
+        let after = format!("{after}.{}", format.ending());
+        Ok(FrameNames { before: before.to_owned(), digits, after, format })
+    }
+
+    pub fn format(&self) -> PictureFormat {
+        self.format
+    }
+
+    /// The file name of picture `index`.
+    pub fn name(&self, index: usize) -> String {
+        let FrameNames { before, digits, after, .. } = self;
+        format!("{before}{index:0digits$}{after}")
+    }
+
+    /// Which picture has that name, if one has.
+    fn index(&self, name: &str) -> Option<usize> {
+        let digits = name.strip_prefix(self.before.as_str())?.strip_suffix(self.after.as_str())?;
+        let is_number = digits.len() >= self.digits && digits.bytes().all(|b| b.is_ascii_digit());
+        is_number.then(|| digits.parse().unwrap_or(usize::MAX))
+    }
+}
+
+/// What stands before the only number of a pattern, how many digits it has, and what stands behind it.
+fn number_in(pattern: &str) -> Option<(&str, usize, &str)> {
+    if let Some((before, rest)) = pattern.split_once('%') {
+        let (digits, after) = rest.split_once('d')?;
+        let is_alone = !pattern.contains('#') && !after.contains('%');
+        let width =
+            if digits.is_empty() { Some(1) } else { digits.strip_prefix('0')?.parse().ok() };
+        return width.filter(|_| is_alone).map(|width| (before, width, after));
+    }
+    let (before, rest) = pattern.split_once('#')?;
+    let after = rest.trim_start_matches('#');
+    (!after.contains('#')).then(|| (before, 1 + rest.len() - after.len(), after))
 }
 
 /// The name of a game's manifest, or of that of a part of its frames.
@@ -20,14 +129,24 @@ pub fn manifest_name(part: Option<&RangeInclusive<usize>>) -> String {
     }
 }
 
-/// Removes the numbered pictures of an earlier run from `folder`, manifests of parts of it, and all of its
-/// variations: they would stand among the new ones, and be of another film. Where a `part` is rendered, only its
-/// pictures.
+/// The name of a game's film, or of that of a part of its frames.
+pub fn film_name(format: FilmFormat, part: Option<&RangeInclusive<usize>>) -> String {
+    let ending = format.ending();
+    match part {
+        None => format!("film.{ending}"),
+        Some(part) => format!("film_{:05}-{:05}.{ending}", part.start(), part.end()),
+    }
+}
+
+/// Removes the numbered pictures of an earlier run from `folder`, by `names` and by their usual ones, its films,
+/// manifests of parts of it, and all of its variations: they would stand among the new ones, and be of another film.
+/// Where a `part` is rendered, only its pictures and films.
 ///
 /// # Errors
 /// When the folder cannot be read, or a picture cannot be removed.
 pub fn remove_frames(
     folder: &Path,
+    names: &FrameNames,
     part: Option<&RangeInclusive<usize>>,
 ) -> Result<(), OutputError> {
     let failed = |error| OutputError { path: folder.to_owned(), error };
@@ -37,13 +156,16 @@ pub fn remove_frames(
         // What a link leads to is not ours.
         let kind = entry.file_type().map_err(failed)?;
         if kind.is_dir() && part.is_none() && is_variation(&name) {
-            remove_variation(&entry.path())?;
+            remove_variation(&entry.path(), names)?;
             continue;
         }
-        let is_old = match (frame_index(&name), part) {
+        let is_old = match (frame_index(&name, names), part) {
             (Some(index), Some(part)) => part.contains(&index),
             (Some(_), None) => true,
-            (None, part) => part.is_none() && is_part_manifest(&name),
+            (None, Some(part)) => {
+                FILM_FORMATS.iter().any(|(_, film)| name == film_name(*film, Some(part)))
+            }
+            (None, None) => is_part_manifest(&name) || is_film(&name),
         };
         if is_old && !kind.is_dir() {
             remove_if_there(&entry.path()).map_err(failed)?;
@@ -53,18 +175,18 @@ pub fn remove_frames(
 }
 
 /// Removes what a variation's folder holds of ours; without a manifest it is another's, unless it is empty.
-fn remove_variation(folder: &Path) -> Result<(), OutputError> {
+fn remove_variation(folder: &Path, names: &FrameNames) -> Result<(), OutputError> {
     let failed = |error| OutputError { path: folder.to_owned(), error };
     let manifest = folder.join(manifest_name(None));
     if manifest.is_file() {
-        remove_frames(folder, None)?;
+        remove_frames(folder, names, None)?;
         remove_if_there(&manifest).map_err(failed)?;
     } else {
         for entry in fs::read_dir(folder).map_err(failed)? {
             let entry = entry.map_err(failed)?;
             let is_nested = is_variation(&entry.file_name().to_string_lossy());
             if is_nested && entry.file_type().map_err(failed)?.is_dir() {
-                remove_variation(&entry.path())?;
+                remove_variation(&entry.path(), names)?;
             }
         }
     }
@@ -88,15 +210,28 @@ fn is_variation(name: &str) -> bool {
     rest.len() < name.len() && san.is_some_and(|san| !san.is_empty() && san.chars().all(is_plain))
 }
 
-/// Which picture has that name, if one has.
-fn frame_index(name: &str) -> Option<usize> {
-    let digits = name.strip_prefix("frame_")?.strip_suffix(".png")?;
-    is_number(digits).then(|| digits.parse().unwrap_or(usize::MAX))
+/// Which picture has that name, by `names` or usually.
+fn frame_index(name: &str, names: &FrameNames) -> Option<usize> {
+    let usual = || FORMATS.iter().find_map(|(_, format)| FrameNames::new(*format).index(name));
+    names.index(name).or_else(usual)
 }
 
 fn is_part_manifest(name: &str) -> bool {
-    let part = name.strip_prefix("game_").and_then(|rest| rest.strip_suffix(".json"));
-    part.and_then(|part| part.split_once('-')).is_some_and(|(a, b)| is_number(a) && is_number(b))
+    name.strip_prefix("game_").and_then(|rest| rest.strip_suffix(".json")).is_some_and(is_part)
+}
+
+/// Whether a film, or one of a part, has that name.
+fn is_film(name: &str) -> bool {
+    FILM_FORMATS.iter().any(|(ending, _)| {
+        let stem = name.strip_suffix(ending).and_then(|rest| rest.strip_suffix('.'));
+        stem.and_then(|stem| stem.strip_prefix("film"))
+            .is_some_and(|rest| rest.is_empty() || rest.strip_prefix('_').is_some_and(is_part))
+    })
+}
+
+/// Whether that stands for a part of the frames: `00100-00250`.
+fn is_part(text: &str) -> bool {
+    text.split_once('-').is_some_and(|(a, b)| is_number(a) && is_number(b))
 }
 
 fn is_number(digits: &str) -> bool {
@@ -109,11 +244,62 @@ mod tests {
 
     #[test]
     fn only_what_is_named_as_a_frame_is_one() {
+        let usual = FrameNames::new(PictureFormat::Png);
+        let own = FrameNames::parse("my %03d.jpg", None).unwrap();
         for index in [0, 7, 1_234_567] {
-            assert_eq!(frame_index(&frame_name(index)), Some(index));
+            for names in [&usual, &own] {
+                assert_eq!(names.index(&names.name(index)), Some(index));
+                assert_eq!(frame_index(&names.name(index), &own), Some(index));
+            }
         }
-        for other in ["frame_1.png", "frame_0000x.png", "frame_00001.jpg", "my_frame_00001.png"] {
-            assert_eq!(frame_index(other), None, "{other}");
+        assert_eq!(frame_index("frame_00007.webp", &own), Some(7));
+        for other in
+            ["frame_1.png", "frame_0000x.png", "frame_00001.gif", "a_frame_00001.png", "my 12.jpg"]
+        {
+            assert_eq!(frame_index(other, &own), None, "{other}");
+        }
+    }
+
+    #[test]
+    fn names_follow_their_pattern() {
+        let (png, jpeg) = (PictureFormat::Png, PictureFormat::Jpeg);
+        for (pattern, format, expected) in [
+            ("frame_%05d.png", None, "frame_00042.png"),
+            ("#####", None, "00042.png"),
+            ("f%d", Some(jpeg), "f42.jpg"),
+            ("a.b-##", None, "a.b-42.png"),
+            ("###_x.JPEG", Some(jpeg), "042_x.JPEG"),
+            ("#.tif", None, "42.tif"),
+        ] {
+            let names = FrameNames::parse(pattern, format).unwrap();
+            assert_eq!(names.name(42), expected, "{pattern}");
+        }
+        for (pattern, format, expected) in [
+            ("frame.png", None, "no number"),
+            ("%d-%d.png", None, "more than one"),
+            ("#a#.png", None, "more than one"),
+            ("%5d.png", None, "no number"),
+            ("%099d.png", None, "too many digits"),
+            ("a/%d.png", None, "no file name"),
+            (".%d.png", None, "no file name"),
+            ("1%d.png", None, "digits beside"),
+            ("%d.gif", None, "ends as no picture"),
+            ("%d.jpg", Some(png), "--format asks for png"),
+        ] {
+            let error = FrameNames::parse(pattern, format).unwrap_err();
+            assert!(error.contains(expected), "{error}");
+        }
+    }
+
+    #[test]
+    fn films_are_told_from_others() {
+        for (_, format) in FILM_FORMATS {
+            for part in [None, Some(&(100..=250))] {
+                assert!(is_film(&film_name(format, part)));
+            }
+        }
+        for other in ["film.avi", "film_1-2.gif", "film", "my_film.gif", "filmgif"] {
+            assert!(!is_film(other), "{other}");
         }
     }
 

@@ -3,16 +3,20 @@
 //! A file is written whole or not at all: under a temporary name in the same folder, then renamed.
 
 mod bmp;
+mod film;
 mod frames;
 mod picture;
 mod png;
 mod record;
+mod repeated;
 mod slug;
 
-pub use frames::{frame_name, manifest_name, remove_frames};
-pub use picture::{PictureFormat, write_picture};
-pub use png::{RepeatedPicture, encode_png, write_png};
+pub use film::{Cut, FILM_FORMATS, Ffmpeg, FfmpegError, FilmFormat, FilmWriter};
+pub use frames::{FrameNames, film_name, manifest_name, remove_frames};
+pub use picture::{FORMATS, PictureFormat, write_picture};
+pub use png::encode_png;
 pub use record::{write_json, write_json_lines};
+pub use repeated::RepeatedPicture;
 pub use slug::slug;
 
 use std::fs;
@@ -107,16 +111,21 @@ fn staged(path: &Path, content: Content) -> Result<Option<(NamedTempFile, PathBu
             out.flush()?;
             return Ok(None);
         }
-        let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty());
-        let mut builder = tempfile::Builder::new();
-        builder.prefix(".lightsquare-");
-        // Readable as any other file is; the default is for secrets.
-        #[cfg(unix)]
-        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-        let mut out = BufWriter::new(builder.tempfile_in(folder.unwrap_or(Path::new(".")))?);
+        let mut out = BufWriter::new(temporary(&target)?);
         content(&mut out)?;
         let file = out.into_inner().map_err(io::IntoInnerError::into_error)?;
         Ok(Some((file, target.clone())))
     };
     written().map_err(|error| OutputError { path: path.to_owned(), error })
+}
+
+/// A file under a temporary name, in the folder of `target`; it is removed when it is dropped.
+fn temporary(target: &Path) -> io::Result<NamedTempFile> {
+    let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".lightsquare-");
+    // Readable as any other file is; the default is for secrets.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder.tempfile_in(folder.unwrap_or(Path::new(".")))
 }

@@ -2,16 +2,14 @@
 
 use std::borrow::Cow;
 use std::io::{self, Write};
-use std::path::Path;
-use std::sync::{Arc, Mutex, PoisonError};
 
 use image::DynamicImage;
 use png::{BitDepth, ColorType, Compression, Encoder, PixelDimensions, Unit};
 
-use super::{OutputError, per_metre, write_whole};
+use super::per_metre;
 
 /// A compressed picture, for files with any texts.
-struct Packed {
+pub(super) struct Packed {
     size: [u32; 2],
     color: ColorType,
     /// All chunks behind the header.
@@ -24,7 +22,7 @@ const END: usize = 12;
 
 impl Packed {
     /// Compresses `picture` quickly.
-    fn new(picture: &DynamicImage) -> io::Result<Packed> {
+    pub fn new(picture: &DynamicImage) -> io::Result<Packed> {
         let (color, bytes) = match picture {
             DynamicImage::ImageRgba8(picture) => (ColorType::Rgba, Cow::Borrowed(picture.as_raw())),
             DynamicImage::ImageRgb8(picture) => (ColorType::Rgb, Cow::Borrowed(picture.as_raw())),
@@ -49,7 +47,7 @@ impl Packed {
         encoder
     }
 
-    fn write(
+    pub fn write(
         &self,
         texts: &[(&str, String)],
         dpi: Option<u32>,
@@ -90,83 +88,4 @@ pub fn encode_png(
     out: impl Write,
 ) -> io::Result<()> {
     Packed::new(picture)?.write(texts, dpi, out)
-}
-
-/// A picture that may be written to many files, each with its own texts: it is compressed once.
-pub struct RepeatedPicture {
-    picture: DynamicImage,
-    packed: Mutex<Option<Arc<Packed>>>,
-}
-
-impl RepeatedPicture {
-    pub fn new(picture: DynamicImage) -> RepeatedPicture {
-        RepeatedPicture { picture, packed: Mutex::default() }
-    }
-
-    pub fn picture(&self) -> &DynamicImage {
-        &self.picture
-    }
-
-    /// Writes the file that [`write_png`] would.
-    ///
-    /// # Errors
-    /// When the file cannot be written.
-    pub fn write_png(&self, path: &Path, texts: &[(&str, String)]) -> Result<(), OutputError> {
-        write_whole(path, |out| self.packed()?.write(texts, None, out))
-    }
-
-    /// Those who come while it is packed wait for it.
-    fn packed(&self) -> io::Result<Arc<Packed>> {
-        let mut packed = self.packed.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(packed) = &*packed {
-            return Ok(packed.clone());
-        }
-        let made = Arc::new(Packed::new(&self.picture)?);
-        *packed = Some(made.clone());
-        Ok(made)
-    }
-}
-
-/// Writes `picture` to a file, as [`encode_png`] encodes it.
-///
-/// # Errors
-/// When the file cannot be written.
-pub fn write_png(
-    path: &Path,
-    picture: &DynamicImage,
-    texts: &[(&str, String)],
-    dpi: Option<u32>,
-) -> Result<(), OutputError> {
-    write_whole(path, |out| encode_png(picture, texts, dpi, out))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use std::fs;
-
-    #[test]
-    fn a_repeated_picture_is_written_with_the_texts_of_each_file() {
-        let folder = tempfile::tempdir().unwrap();
-        let picture = DynamicImage::from(image::RgbImage::from_fn(30, 20, |x, y| {
-            image::Rgb([x as u8 * 8, y as u8 * 12, (x * y) as u8])
-        }));
-        let repeated = RepeatedPicture::new(picture.clone());
-        let [once, again] = ["once.png", "again.png"].map(|name| folder.path().join(name));
-        for text in ["1", "²"] {
-            let texts = [("Ply", text.to_owned())];
-            repeated.write_png(&again, &texts).unwrap();
-            write_png(&once, &picture, &texts, None).unwrap();
-            assert_eq!(fs::read(&again).unwrap(), fs::read(&once).unwrap());
-            let decoder = png::Decoder::new(io::BufReader::new(fs::File::open(&again).unwrap()));
-            let mut reader = decoder.read_info().unwrap();
-            let mut bytes = vec![0; 30 * 20 * 3];
-            reader.next_frame(&mut bytes).unwrap();
-            assert_eq!(&bytes, picture.as_bytes());
-            let info = reader.info();
-            let plain = info.uncompressed_latin1_text.iter().map(|text| text.text.clone());
-            let international = info.utf8_text.iter().map(|text| text.get_text().unwrap());
-            assert_eq!(plain.chain(international).collect::<Vec<_>>(), [text]);
-        }
-    }
 }

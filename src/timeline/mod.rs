@@ -204,6 +204,15 @@ impl<'a> Timeline<'a> {
         }
     }
 
+    /// When frame `index` begins, in seconds; where there is none more, when the film ends.
+    pub fn begins(&self, index: usize) -> f64 {
+        match self.stills.get(index) {
+            _ if self.script.animate => self.schedule.time(index),
+            Some(moment) => self.still_time(*moment),
+            None => self.schedule.length(),
+        }
+    }
+
     fn at(&self, moment: Moment) -> Frame {
         match moment {
             Moment::Title => Frame { card: Some(Card::Title), ..self.at_rest(0) },
@@ -238,7 +247,7 @@ impl<'a> Timeline<'a> {
             Moment::Rest { moves, .. } | Moment::Move { moves, .. } => {
                 self.schedule.reached(moves as i64)
             }
-            Moment::Result { .. } => self.schedule.length(),
+            Moment::Result { .. } => self.schedule.length() - self.script.film.result,
         }
     }
 }
