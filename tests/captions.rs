@@ -8,7 +8,8 @@ use image::{DynamicImage, GenericImageView};
 use lightsquare::assets::SetName;
 use lightsquare::config::{Config, Look};
 use lightsquare::game::Moment;
-use lightsquare::job::{PictureSettings, Progress, RenderJob, Showing, render};
+use lightsquare::job::{Films, PictureSettings, Progress, RenderJob, Showing, render};
+use lightsquare::output::{FrameNames, PictureFormat};
 use lightsquare::timeline::Film;
 use tempfile::TempDir;
 
@@ -116,6 +117,8 @@ fn a_pause_is_traced_once() {
             to: Moment::End,
             variations: false,
             frames: None,
+            names: Some(FrameNames::new(PictureFormat::Png)),
+            films: Films::default(),
             showing: Showing {
                 film: Film { fps, ..Film::default() },
                 animate: true,

@@ -76,6 +76,7 @@ pub fn render(job: &RenderJob, progress: &dyn Progress) -> Result<Summary, JobEr
     for (input, name) in job.inputs.iter().zip(folder_names(&job.inputs)) {
         batches.push(read_batch(job, &script, input, job.out.join(name), progress)?);
     }
+    say_sizes(job, progress);
     let pool = job.picture.pool()?;
     let studio = Studio::new(&job.picture, job.showing.reach(config))?;
     let script = job.showing.script(config, studio.bodies().clone());
@@ -92,6 +93,21 @@ pub fn render(job: &RenderJob, progress: &dyn Progress) -> Result<Summary, JobEr
     }
     run.summary.rays = run.studio.rays();
     Ok(run.summary)
+}
+
+/// Tells of films that are smaller than their pictures.
+fn say_sizes(job: &RenderJob, progress: &dyn Progress) {
+    let Config { width, height, .. } = job.picture.config;
+    for format in &job.films.formats {
+        let [columns, rows] = format.size([width, height]);
+        if [columns, rows] != [width, height] {
+            let name = film_name(*format, None);
+            progress.say(&format!(
+                "{name}: is {columns}x{rows}, {} has even sides alone",
+                format.ending()
+            ));
+        }
+    }
 }
 
 /// Refuses to write into a folder that holds what is read: a game, the settings, a picture, a set.

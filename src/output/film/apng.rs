@@ -1,4 +1,4 @@
-//! APNG: without loss, each picture no more than the rectangle that it changes.
+//! APNG: without loss, each picture no more than what it changes.
 
 use std::fs::File;
 use std::io::{self, BufWriter};
@@ -16,59 +16,32 @@ pub const RATE: f64 = 1000.0;
 const MOST: u64 = u16::MAX as u64;
 
 pub struct Apng {
-    size: [u32; 2],
-    /// How many frames there will be.
-    frames: u32,
-    /// Until the first picture tells its kind there is no writer.
-    state: State,
+    writer: Writer<BufWriter<File>>,
     last: Option<DynamicImage>,
-}
-
-enum State {
-    Waiting(Option<File>),
-    Writing(Writer<BufWriter<File>>),
 }
 
 impl Apng {
     /// For pictures that stand for so many steps each; those that stand for none are no frames.
-    pub fn new(file: File, size: [u32; 2], steps: &[u64]) -> Apng {
+    pub fn new(file: File, [width, height]: [u32; 2], steps: &[u64]) -> io::Result<Apng> {
         let frames = steps.iter().map(|steps| steps.div_ceil(MOST)).sum::<u64>();
-        let frames = u32::try_from(frames).unwrap_or(u32::MAX);
-        Apng { size, frames, state: State::Waiting(Some(file)), last: None }
+        let mut encoder = Encoder::new(BufWriter::new(file), width, height);
+        encoder.set_color(ColorType::Rgba);
+        encoder.set_depth(BitDepth::Eight);
+        encoder.set_compression(Compression::Balanced);
+        encoder.set_animated(u32::try_from(frames).unwrap_or(u32::MAX), 0)?;
+        encoder.set_dispose_op(DisposeOp::None)?;
+        Ok(Apng { writer: encoder.write_header()?, last: None })
     }
 
-    fn writer(&mut self, color: ColorType) -> io::Result<&mut Writer<BufWriter<File>>> {
-        if let State::Waiting(file) = &mut self.state {
-            let file = file.take().ok_or(io::ErrorKind::BrokenPipe)?;
-            let mut encoder = Encoder::new(BufWriter::new(file), self.size[0], self.size[1]);
-            encoder.set_color(color);
-            encoder.set_depth(BitDepth::Eight);
-            encoder.set_compression(Compression::Balanced);
-            encoder.set_animated(self.frames, 0)?;
-            encoder.set_blend_op(BlendOp::Source)?;
-            encoder.set_dispose_op(DisposeOp::None)?;
-            self.state = State::Writing(encoder.write_header()?);
-        }
-        match &mut self.state {
-            State::Writing(writer) => Ok(writer),
-            State::Waiting(_) => Err(io::ErrorKind::BrokenPipe.into()),
-        }
-    }
-
-    fn write(&mut self, patch: Patch, picture: &DynamicImage, steps: u64) -> io::Result<()> {
-        let has_alpha = picture.color().has_alpha();
-        let cut = picture.crop_imm(patch.left, patch.top, patch.width, patch.height);
-        let (color, bytes) = if has_alpha {
-            (ColorType::Rgba, cut.into_rgba8().into_raw())
-        } else {
-            (ColorType::Rgb, cut.into_rgb8().into_raw())
-        };
-        let writer = self.writer(color)?;
+    /// Writes a frame that is laid over, or takes the place of, what was there.
+    fn write(&mut self, patch: Patch, pixels: &[u8], blend: BlendOp, steps: u64) -> io::Result<()> {
+        let writer = &mut self.writer;
         writer.reset_frame_position()?;
         writer.set_frame_dimension(patch.width, patch.height)?;
         writer.set_frame_position(patch.left, patch.top)?;
         writer.set_frame_delay(steps as u16, RATE as u16)?;
-        writer.write_image_data(&bytes)?;
+        writer.set_blend_op(blend)?;
+        writer.write_image_data(pixels)?;
         Ok(())
     }
 }
@@ -77,13 +50,18 @@ impl Encode for Apng {
     fn add(&mut self, picture: &DynamicImage, steps: u64) -> io::Result<()> {
         let patch = match &self.last {
             Some(last) => Patch::between(last, picture),
-            None => Patch::whole(self.size),
+            None => Patch::whole([picture.width(), picture.height()]),
         };
-        self.write(patch, picture, steps.min(MOST))?;
+        // What becomes transparent again cannot be laid over what is there.
+        let last = self.last.as_ref().filter(|_| !picture.color().has_alpha());
+        let (pixels, blend) = match last {
+            Some(last) => (patch.change(last, picture), BlendOp::Over),
+            None => (patch.of(picture), BlendOp::Source),
+        };
+        self.write(patch, pixels.as_raw(), blend, steps.min(MOST))?;
         let mut rest = steps.saturating_sub(MOST);
         while rest > 0 {
-            let pixel = Patch { left: 0, top: 0, width: 1, height: 1 };
-            self.write(pixel, picture, rest.min(MOST))?;
+            self.write(Patch::PIXEL, &[0; 4], BlendOp::Over, rest.min(MOST))?;
             rest = rest.saturating_sub(MOST);
         }
         self.last = Some(picture.clone());
@@ -91,9 +69,6 @@ impl Encode for Apng {
     }
 
     fn finish(self: Box<Self>) -> io::Result<()> {
-        match self.state {
-            State::Writing(writer) => Ok(writer.finish()?),
-            State::Waiting(_) => Ok(()),
-        }
+        Ok(self.writer.finish()?)
     }
 }

@@ -147,7 +147,7 @@ impl FilmWriter {
                 }
                 (FilmFormat::Apng, _) => {
                     let steps = cut.steps(apng::RATE, 1);
-                    let encoder = apng::Apng::new(file.reopen()?, cut.size, &steps);
+                    let encoder = apng::Apng::new(file.reopen()?, cut.size, &steps)?;
                     (steps, Box::new(encoder))
                 }
                 #[cfg(feature = "webp")]

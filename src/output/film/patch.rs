@@ -12,6 +12,9 @@ pub struct Patch {
 }
 
 impl Patch {
+    /// The first pixel alone.
+    pub const PIXEL: Patch = Patch { left: 0, top: 0, width: 1, height: 1 };
+
     /// All of a picture.
     pub fn whole([width, height]: [u32; 2]) -> Patch {
         Patch { left: 0, top: 0, width, height }
@@ -34,7 +37,7 @@ impl Patch {
             (top, bottom) = (top.min(y), y + 1);
         }
         if bottom == 0 {
-            return Patch { left: 0, top: 0, width: 1, height: 1 };
+            return Patch::PIXEL;
         }
         Patch {
             left: left as u32,
