@@ -103,8 +103,7 @@ fn say_sizes(job: &RenderJob, progress: &dyn Progress) {
         if [columns, rows] != [width, height] {
             let name = film_name(*format, None);
             progress.say(&format!(
-                "{name}: is {columns}x{rows}, {} has even sides alone",
-                format.ending()
+                "{name}: is {columns}x{rows} instead of {width}x{height}, its sides are even"
             ));
         }
     }
