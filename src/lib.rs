@@ -1,9 +1,9 @@
-//! lightsquare reads chess games, replays them and ray-traces them into numbered pictures.
+//! lightsquare reads chess games, replays them and ray-traces them into numbered pictures and films.
 //!
 //! # One way for the data
 //! ```text
 //! PGN text ─ game ─ timeline ─ scene ─ tracer ─ output
-//!              │       │          │       │        └ numbered pictures, manifests, reports
+//!              │       │          │       │        └ numbered pictures, films, manifests, reports
 //!              │       │          │       └ Scene → pixels, by Phong's sum or in the studio's light
 //!              │       │          └ Frame → bodies, materials, lights or a room, camera
 //!              │       └ what stands, moves or is marked where at time t; the clock, the camera's turn
@@ -25,7 +25,7 @@
 //! | [`tracer`] | rays through a whole scene, shading, antialiasing; a picture in memory, and what can stay of it for the next | geometry, scene, lanes, packet |
 //! | [`export`] | a scene as another renderer's text | geometry, scene, assets, config |
 //! | [`caption`] | the strip of words on a picture, and the cards before and behind a game | assets, config, notation |
-//! | [`output`] | pictures, manifests, reports; whole files only | – |
+//! | [`output`] | pictures, films, manifests, reports; whole files only | – |
 //! | [`job`] | what to render: game → timeline → scene → tracer → output; inspect; diagram; export; bench | all of the above |
 //!
 //! The binary (`main`, `cli`, `progress`, `signals`) turns arguments into a typed job, shows how far it is,

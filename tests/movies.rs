@@ -1,7 +1,7 @@
 //! Films in one file, as the command makes them: read again, and held against the numbered pictures.
 
 use std::collections::BTreeMap;
-use std::fs::{self, File};
+use std::fs;
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
@@ -248,6 +248,42 @@ fn an_mp4_is_made_where_there_is_no_ffmpeg() {
     let picture = decoder.decode(&stream).unwrap().expect("the first picture stands alone");
     use openh264::formats::YUVSource;
     assert_eq!(picture.dimensions(), (48, 32));
+}
+
+/// What ffprobe says of a film: codec, width, height, kind of pixels, and the pictures that it could decode.
+fn probed(path: &Path) -> Option<String> {
+    let entries = "stream=codec_name,width,height,pix_fmt,nb_read_frames,duration";
+    let arguments = ["-v", "error", "-count_frames", "-show_entries", entries, "-of", "csv=p=0"];
+    let output = std::process::Command::new("ffprobe").args(arguments).arg(path).output().ok()?;
+    Some(String::from_utf8(output.stdout).unwrap().trim().to_owned())
+}
+
+/// By somebody who wrote none of them.
+#[test]
+fn ffprobe_reads_films_to_the_last_picture() {
+    if probed(Path::new("none")).is_none() {
+        eprintln!("skipped: there is no ffprobe");
+        return;
+    }
+    let folder = TempDir::new().unwrap();
+    let path = std::env::var("PATH").unwrap();
+    let formats =
+        ["--film", "gif", "--film", "apng", "--film", "mp4", "--no-frames", "--fps", "20"];
+    let probe =
+        |ending: &str| probed(&folder.path().join(FOLDER).join(format!("film.{ending}"))).unwrap();
+    assert_eq!(run(folder.path(), &path, &[&TIMES, &formats]).0, 0);
+    assert_eq!(probe("mp4"), "h264,48,32,yuv420p,4.500000,90");
+    let shown = |found: &str, codec: &str| {
+        let frames: usize = found.rsplit(',').next().unwrap().parse().unwrap();
+        // A picture for each that differs: five moves of six, and a position behind each.
+        assert!(found.starts_with(codec) && (30..=36).contains(&frames), "{found}");
+    };
+    shown(&probe("gif"), "gif,48,32,bgra,4.500000");
+    shown(&probe("apng"), "apng,48,32,rgba");
+    if cfg!(feature = "h264") {
+        assert_eq!(run(folder.path(), "", &[&TIMES, &formats]).0, 0);
+        assert_eq!(probe("mp4"), "h264,48,32,yuv420p,4.500000,90");
+    }
 }
 
 #[test]

@@ -29,8 +29,8 @@ pub struct FilmArgs {
     /// --animate it goes from position to position
     #[arg(long, value_name = "FORMAT", value_parser = one_of(&FILM_FORMATS), ignore_case = true)]
     film: Vec<FilmFormat>,
-    /// Make a film for a place: its format, with moves, and size, camera, captions and frames a second
-    /// that suit it; other options are over it
+    /// Make a film for a place: its format, with moves and captions, and the size, the frames a second and
+    /// the captured pieces that suit it; other options are over it
     #[arg(long = "for", id = "preset", value_name = "PLACE", ignore_case = true)]
     preset: Option<Preset>,
     /// No numbered pictures, films alone

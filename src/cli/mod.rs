@@ -29,7 +29,7 @@ use print::PrintArgs;
 use subject::SubjectArgs;
 use values::{plies, runs, threads};
 
-/// Reads chess games (PGN), replays them and ray-traces them into numbered pictures.
+/// Reads chess games (PGN), replays them and ray-traces them into pictures and films.
 #[derive(Parser)]
 #[command(version, propagate_version = true, max_term_width = 100, after_help = THESIS_LINE)]
 pub struct Cli {
@@ -107,7 +107,7 @@ enum ColorMode {
 
 #[derive(Subcommand)]
 pub enum Command {
-    /// Render games, each into a folder of numbered pictures
+    /// Render games, each into a folder of numbered pictures, films, or both
     #[command(after_help = RENDER_EXAMPLES)]
     Render(RenderArgs),
     /// Render one position

@@ -120,8 +120,8 @@ impl PictureArgs {
     /// Makes pictures suit the place that a film is for, in all that was not asked for otherwise.
     pub fn suit(&mut self, place: Preset) {
         self.size = self.size.or(Some(place.size()));
-        self.camera = self.camera.or(place.camera());
-        self.captions |= place.captions();
+        self.captured = self.captured.or(place.captured());
+        self.captions = true;
     }
 
     /// The settings: flags over the file, the file over the look.

@@ -1,7 +1,7 @@
 //! Places that films are made for.
 
 use clap::ValueEnum;
-use lightsquare::config::View;
+use lightsquare::config::Captured;
 use lightsquare::output::FilmFormat;
 
 /// Where a film goes.
@@ -36,16 +36,8 @@ impl Preset {
         if self == Preset::Gif { FilmFormat::Gif } else { FilmFormat::Mp4 }
     }
 
-    /// The camera that fills the picture best, where it is not the usual one.
-    pub fn camera(self) -> Option<View> {
-        match self {
-            Preset::Tall | Preset::Square | Preset::Gif => None,
-            Preset::Wide => None,
-        }
-    }
-
-    /// Whether there is room for words.
-    pub fn captions(self) -> bool {
-        true
+    /// Where captured pieces stay: where there is little room for the board, it gets all of it.
+    pub fn captured(self) -> Option<Captured> {
+        matches!(self, Preset::Tall | Preset::Gif).then_some(Captured::Gone)
     }
 }

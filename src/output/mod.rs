@@ -1,4 +1,4 @@
-//! Files: pictures that say what they show, and records beside them.
+//! Files: pictures that say what they show, films, and records beside them.
 //!
 //! A file is written whole or not at all: under a temporary name in the same folder, then renamed.
 
