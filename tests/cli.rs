@@ -355,9 +355,9 @@ fn bad_input_gets_a_sentence_and_leaves_nothing_behind() {
             "game.pgn: game 1 has no position 9w, it goes from start to 1w",
         ),
         (
-            &["diagram", "game.pgn", "-o", "x.jpg"],
+            &["diagram", "game.pgn", "-o", "x.gif"],
             2,
-            "--output: expected a .png or .bmp file, found `x.jpg`",
+            "--output: expected a file of .png, .jpg, .bmp, .tiff, .webp, .jpeg, .tif, found `x.gif`",
         ),
         (&["diagram", "game.pgn", "--select", "x"], 2, "expected a whole number from 1"),
         (

@@ -43,6 +43,10 @@ fn done(folder: &Path, parts: &[&[&str]]) {
     assert_eq!(run(folder, "", parts).0, 0, "{:?}", run(folder, "", parts));
 }
 
+/// A film and its pictures, with the words of titles, clocks and captions between them.
+const WORDS: [&str; 8] =
+    ["--size", "128x96", "--captions", "--clock", "--title=0.5", "--result=0.5", "--fps", "10"];
+
 /// The files in the game's folder by name; none if there is no such folder.
 fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let Ok(entries) = fs::read_dir(folder.join(FOLDER)) else {
@@ -94,6 +98,9 @@ fn gif(bytes: &[u8]) -> Shown {
         let place = [frame.left, frame.top, frame.width].map(u32::from);
         lay(&mut picture, place, &frame.buffer);
         shown.push((picture.clone(), frame.delay.into()));
+        if frame.dispose == gif::DisposalMethod::Background {
+            picture.fill(0);
+        }
     }
     shown
 }
@@ -110,6 +117,13 @@ fn apng(bytes: &[u8]) -> Shown {
         reader.next_frame(&mut pixels).unwrap();
         let frame = *reader.info().frame_control().unwrap();
         pixels.truncate((frame.width * frame.height * 4) as usize);
+        if frame.blend_op == png::BlendOp::Source {
+            let columns = frame.x_offset..frame.x_offset + frame.width;
+            let rows = frame.y_offset..frame.y_offset + frame.height;
+            for (x, y) in rows.flat_map(|y| columns.clone().map(move |x| (x, y))) {
+                picture.put_pixel(x, y, Rgba([0; 4]));
+            }
+        }
         lay(&mut picture, [frame.x_offset, frame.y_offset, frame.width], &pixels);
         assert_eq!(frame.delay_den, 1000);
         shown.push((picture.clone(), frame.delay_num.into()));
@@ -151,6 +165,86 @@ fn films_show_what_the_pictures_show_for_as_long() {
             let difference = difference(at(&gif, 100.0 * time), picture);
             assert!(difference < 2.5, "{fps}: {index}: {difference}");
         }
+    }
+}
+
+/// What is shown is a new picture only where the studio made one; and opaque titles stand among transparent pictures.
+#[test]
+fn films_show_words_and_what_is_transparent() {
+    let folder = TempDir::new().unwrap();
+    for transparent in [&[][..], &["--transparent"]] {
+        let films = ["--film", "gif", "--film", "apng"];
+        done(folder.path(), &[&TIMES, &WORDS, &films, transparent]);
+        let (files, pictures) = (files(folder.path()), pictures(folder.path()));
+        assert_eq!(pictures.len(), 55);
+        let (gif, apng) = (gif(&files["film.gif"]), apng(&files["film.apng"]));
+        for (index, picture) in pictures.iter().enumerate() {
+            let found = at(&apng, 100.0 * (index as f64 + 0.5));
+            assert!(found == picture, "{transparent:?}: {index}");
+            let rough = at(&gif, 10.0 * (index as f64 + 0.5));
+            let solid = |picture: &RgbaImage| {
+                picture.pixels().map(|pixel| pixel[3] > 127).collect::<Vec<_>>()
+            };
+            assert!(solid(rough) == solid(picture), "{transparent:?}: {index}");
+        }
+    }
+}
+
+/// One that is whole from its beginning to its end, as libwebp reads it.
+#[cfg(feature = "webp")]
+#[test]
+fn a_webp_is_as_long_as_it_should_be() {
+    let folder = TempDir::new().unwrap();
+    done(folder.path(), &[&TIMES, &["--film", "webp", "--no-frames", "--fps", "20"]]);
+    let bytes = files(folder.path()).remove("film.webp").unwrap();
+    let decoder = webp_animation::Decoder::new(&bytes).unwrap();
+    let frames: Vec<_> = decoder.into_iter().collect();
+    assert_eq!(frames[0].dimensions(), (48, 32));
+    assert!((30..=36).contains(&frames.len()), "{}", frames.len());
+    // Each says when it ends.
+    assert_eq!(frames.last().unwrap().timestamp(), 4500);
+}
+
+#[test]
+fn places_have_their_sizes_and_their_formats() {
+    let folder = TempDir::new().unwrap();
+    fs::write(folder.path().join("game.pgn"), GAME).unwrap();
+    for (place, size, film, captured) in [
+        ("square", "1080x1080", "mp4", "films"),
+        ("wide", "1920x1080", "mp4", "films"),
+        ("tall", "1080x1920", "mp4", "gone"),
+        ("gif", "480x480", "gif", "gone"),
+    ] {
+        let mut command = Command::cargo_bin("lightsquare").unwrap();
+        command.current_dir(folder.path()).args(["render", "--for", place, "--print-config"]);
+        let said = String::from_utf8(command.output().unwrap().stdout).unwrap().to_lowercase();
+        let (width, height) = size.split_once('x').unwrap();
+        for line in
+            [format!("width={width}"), format!("height={height}"), format!("captured={captured}")]
+        {
+            assert!(said.replace(' ', "").contains(&line), "{place}: {line}: {said}");
+        }
+        if film == "mp4" && cfg!(not(feature = "h264")) {
+            continue;
+        }
+        let small =
+            ["--for", place, "--size", "128x96", "--no-frames", "--last", "0", "--to", "1w"];
+        done(folder.path(), &[&small]);
+        assert_eq!(names(folder.path()), [format!("film.{film}"), "game.json".to_owned()]);
+    }
+}
+
+#[test]
+fn variations_have_films_of_their_own() {
+    let folder = TempDir::new().unwrap();
+    let game = "[White \"Anand\"]\n[Black \"Topalov\"]\n\n1. e4 (1. d4 d5) e5 *\n";
+    fs::write(folder.path().join("two.pgn"), game).unwrap();
+    let mut command = Command::cargo_bin("lightsquare").unwrap();
+    let options = ["render", "two.pgn", "--variations", "--film", "gif", "--no-frames", "-q"];
+    command.current_dir(folder.path()).args(options).args(TINY).args(PLAIN).assert().success();
+    let within = folder.path().join("out/two/0001-anand-topalov");
+    for film in ["film.gif", "1w-d4/film.gif"] {
+        assert!(!gif(&fs::read(within.join(film)).unwrap()).is_empty(), "{film}");
     }
 }
 
@@ -198,6 +292,7 @@ fn a_long_pause_is_more_than_one_frame() {
 }
 
 /// The boxes of an MP4 file, with what they hold.
+#[cfg(feature = "h264")]
 fn boxes(mut bytes: &[u8]) -> Vec<(String, &[u8])> {
     let mut found = Vec::new();
     while bytes.len() >= 8 {
@@ -209,12 +304,14 @@ fn boxes(mut bytes: &[u8]) -> Vec<(String, &[u8])> {
 }
 
 /// What a box within boxes holds.
+#[cfg(feature = "h264")]
 fn inside<'a>(bytes: &'a [u8], path: &[&str]) -> &'a [u8] {
     path.iter().fold(bytes, |bytes, name| {
         boxes(bytes).into_iter().find(|(found, _)| found == name).unwrap().1
     })
 }
 
+#[cfg(feature = "h264")]
 fn number(bytes: &[u8], index: usize) -> u32 {
     u32::from_be_bytes(bytes[4 * index..4 * index + 4].try_into().unwrap())
 }
@@ -318,6 +415,22 @@ fn films_of_an_earlier_run_are_removed() {
     assert_eq!(names(folder.path()), expected);
 }
 
+/// By the usual names, by names of its own, and by those of the manifest; what is not ours stays.
+#[test]
+fn pictures_of_an_earlier_run_are_removed() {
+    let folder = TempDir::new().unwrap();
+    done(folder.path(), &[&["--names", "move-##.bmp"]]);
+    fs::write(folder.path().join(FOLDER).join("mine.png"), b"").unwrap();
+    done(folder.path(), &[&["--to", "1w"]]);
+    assert_eq!(
+        names(folder.path()),
+        ["frame_00000.png", "frame_00001.png", "game.json", "mine.png"]
+    );
+    // A film of a part needs no room.
+    done(folder.path(), &[&["--to", "1w", "--film", "gif", "--no-frames", "--frames", "1-1"]]);
+    assert!(names(folder.path()).contains(&"frame_00001.png".to_owned()));
+}
+
 #[test]
 fn what_cannot_be_a_film_is_refused_before_any_work() {
     for (options, expected) in [
@@ -327,8 +440,18 @@ fn what_cannot_be_a_film_is_refused_before_any_work() {
         (&["--names", "frame.png"], "no number"),
         (&["--format", "gif"], "png, jpg, bmp, tiff, webp"),
         (&["--fps", "30"], "--film"),
-        (&["--film", "mp4", "--size", "14x48"], "mp4 has sides from 16"),
+        #[cfg(feature = "webp")]
+        (&["--film", "webp", "--size", "16384x4"], "1x1 to 16383x16383 for webp, found 16384x4"),
+        #[cfg(feature = "h264")]
+        (&["--film", "mp4", "--size", "14x48"], "16x16 to 3840x2160 for mp4 without ffmpeg"),
+        #[cfg(feature = "h264")]
+        (&["--film", "mp4", "--size", "2400x2400"], "found 2400x2400"),
+        #[cfg(feature = "h264")]
         (&["--film", "mp4", "--transparent"], "mp4 cannot be transparent"),
+        #[cfg(not(feature = "h264"))]
+        (&["--film", "mp4"], "this build has no mp4, and ffmpeg is not installed"),
+        #[cfg(not(feature = "webp"))]
+        (&["--film", "webp"], "this build has no webp"),
         (&["--transparent", "--format", "jpg"], "png, tiff or webp"),
         (&["--film", "mp4", "--ffmpeg", "game.pgn"], "game.pgn: cannot be started"),
         (&["--film", "mp4", "--ffmpeg", "nowhere"], "nowhere: cannot be started"),

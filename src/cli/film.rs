@@ -7,7 +7,7 @@ use anyhow::bail;
 use clap::{ArgGroup, Args, ValueEnum};
 use lightsquare::config::Config;
 use lightsquare::job::{Films, Showing};
-use lightsquare::output::{FILM_FORMATS, Ffmpeg, FilmFormat, FrameNames, PictureFormat};
+use lightsquare::output::{FILM_FORMATS, FORMATS, Ffmpeg, FilmFormat, FrameNames, PictureFormat};
 use lightsquare::timeline::{Film, Pause};
 
 use super::UsageError;
@@ -37,7 +37,7 @@ pub struct FilmArgs {
     #[arg(long, requires = "filmed", conflicts_with_all = ["format", "names"])]
     no_frames: bool,
     /// The format of numbered pictures [default: png]
-    #[arg(long, value_name = "FORMAT", value_parser = one_of(&FRAME_FORMATS), ignore_case = true)]
+    #[arg(long, value_name = "FORMAT", value_parser = one_of(&FORMATS), ignore_case = true)]
     format: Option<PictureFormat>,
     /// Names of numbered pictures, with the number as %05d or #####; the ending says the format
     /// [default: frame_%05d.png]
@@ -149,15 +149,6 @@ enum OrbitSpan {
     Move,
 }
 
-/// Formats of numbered pictures.
-const FRAME_FORMATS: [(&str, PictureFormat); 5] = [
-    ("png", PictureFormat::Png),
-    ("jpg", PictureFormat::Jpeg),
-    ("bmp", PictureFormat::Bmp),
-    ("tiff", PictureFormat::Tiff),
-    ("webp", PictureFormat::Webp),
-];
-
 impl FilmArgs {
     /// How games are to be shown in time.
     pub fn showing(&self) -> Showing {
@@ -209,11 +200,8 @@ impl FilmArgs {
                     if *format == FilmFormat::Mp4 { ", and ffmpeg is not installed" } else { "" };
                 bail!(UsageError(format!("--film: this build has no {name}{other}")));
             }
-            let [least, most] = format.sides();
-            if let Some(side) = [width, height].iter().find(|side| !(least..=most).contains(side)) {
-                bail!(UsageError(format!(
-                    "--film: {name} has sides from {least} to {most}, found {side} in {width}x{height}"
-                )));
+            if let Err(fault) = format.check([width, height], ffmpeg.is_some()) {
+                bail!(UsageError(format!("--film: {fault}")));
             }
             if *format == FilmFormat::Mp4 && config.is_transparent() {
                 bail!(UsageError(

@@ -276,11 +276,7 @@ impl RenderArgs {
         if self.out == Path::new("-") {
             bail!(UsageError("--out: expected a folder, found `-`".to_owned()));
         }
-        let mut picture = self.picture;
-        if let Some(preset) = self.film.preset() {
-            picture.suit(preset);
-        }
-        let picture = picture.settings(Look::default())?;
+        let picture = self.settings()?;
         Ok(RenderJob {
             names: self.film.names(&picture.config)?,
             films: self.film.films(&picture.config)?,
@@ -294,6 +290,13 @@ impl RenderArgs {
             frames: self.film.frames,
             picture,
         })
+    }
+}
+
+impl RenderArgs {
+    /// The settings, as the place that a film is for has them.
+    fn settings(&self) -> anyhow::Result<PictureSettings> {
+        self.picture.settings_for(self.film.preset(), Look::default())
     }
 }
 
@@ -349,9 +352,7 @@ impl Command {
     /// The settings in force, where a command is asked to print them and do nothing else.
     pub fn config_to_print(&self) -> anyhow::Result<Option<Config>> {
         let settings = match self {
-            Command::Render(args) if args.picture.print_config => {
-                args.picture.settings(Look::default())?
-            }
+            Command::Render(args) if args.picture.print_config => args.settings()?,
             Command::Export(args) if args.picture.print_config => {
                 args.picture.settings(Look::Thesis)?
             }
@@ -379,7 +380,7 @@ fn keep_transparency(flag: &str, config: &Config, output: &Path) -> Result<(), U
     if config.is_transparent() && !has_alpha {
         let name = output.display();
         return Err(UsageError(format!(
-            "{flag}: expected a .png file for a transparent picture, found `{name}`"
+            "{flag}: expected a .png, .tiff or .webp file for a transparent picture, found `{name}`"
         )));
     }
     Ok(())

@@ -82,7 +82,7 @@ pub struct PictureArgs {
     /// Wood and marble as plain colours
     #[arg(long)]
     plain: bool,
-    /// No ground: a PNG that is transparent where there is neither board nor piece
+    /// No ground: pictures are transparent where there is neither board nor piece
     #[arg(long)]
     transparent: bool,
     /// Print the settings that are in force as a config.ini, and do nothing else
@@ -117,11 +117,20 @@ enum LookArg {
 }
 
 impl PictureArgs {
-    /// Makes pictures suit the place that a film is for, in all that was not asked for otherwise.
-    pub fn suit(&mut self, place: Preset) {
-        self.size = self.size.or(Some(place.size()));
-        self.captured = self.captured.or(place.captured());
-        self.captions = true;
+    /// [`PictureArgs::settings`], and what suits the place that a film is for in all that was not asked for otherwise.
+    pub fn settings_for(
+        &self,
+        place: Option<Preset>,
+        look: Look,
+    ) -> anyhow::Result<PictureSettings> {
+        let mut settings = self.settings(look)?;
+        if let Some(place) = place {
+            let config = &mut settings.config;
+            (config.width, config.height) = self.size.unwrap_or(place.size());
+            config.captured = self.captured.or(place.captured()).unwrap_or(config.captured);
+            config.captions.show = true;
+        }
+        Ok(settings)
     }
 
     /// The settings: flags over the file, the file over the look.

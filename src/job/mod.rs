@@ -14,6 +14,7 @@ mod reels;
 mod render;
 mod report;
 mod script;
+mod shots;
 mod studio;
 mod subject;
 mod wording;

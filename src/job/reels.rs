@@ -2,8 +2,12 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
 use std::thread::JoinHandle;
+use std::time::Duration;
+
+use super::Progress;
 
 use crate::output::{Cut, Ffmpeg, FilmFormat, FilmWriter, OutputError, RepeatedPicture};
 
@@ -20,17 +24,24 @@ pub struct Films {
 }
 
 /// The films of one game.
-pub struct Reels {
+pub struct Reels<'a> {
+    progress: &'a dyn Progress,
     reels: Vec<Reel>,
+    /// Whether pictures that wait need not be encoded any more.
+    is_over: Arc<AtomicBool>,
 }
 
 struct Reel {
+    format: FilmFormat,
     path: PathBuf,
     pictures: SyncSender<Arc<RepeatedPicture>>,
     thread: JoinHandle<Result<bool, OutputError>>,
 }
 
-impl Reels {
+/// How long it is waited between two looks for room, or for somebody who wants to stop.
+const LOOK: Duration = Duration::from_millis(2);
+
+impl<'a> Reels<'a> {
     /// Begins films in files that are named for each format.
     ///
     /// # Errors
@@ -38,37 +49,62 @@ impl Reels {
     pub fn begin(
         films: &Films,
         cut: &Cut,
+        progress: &'a dyn Progress,
         file: impl Fn(FilmFormat) -> PathBuf,
-    ) -> Result<Reels, OutputError> {
-        let begin = |format: &FilmFormat| {
-            let (path, format) = (file(*format), *format);
+    ) -> Result<Reels<'a>, OutputError> {
+        let mut reels = Reels { progress, reels: Vec::new(), is_over: Arc::default() };
+        for format in films.formats.iter().copied() {
+            let path = file(format);
             let (pictures, waiting) = sync_channel(WAITING);
             let (target, cut, ffmpeg) = (path.clone(), cut.clone(), films.ffmpeg.clone());
+            let is_over = reels.is_over.clone();
             // Not every encoder can go from one thread to another.
-            let thread = spawn(&path, move || {
-                filled(FilmWriter::new(&target, format, &cut, ffmpeg.as_ref())?, waiting)
-            })?;
-            Ok(Reel { path, pictures, thread })
-        };
-        Ok(Reels { reels: films.formats.iter().map(begin).collect::<Result<_, _>>()? })
+            let begun = spawn(&path, move || {
+                let writer = FilmWriter::new(&target, format, &cut, ffmpeg.as_ref())?;
+                filled(writer, waiting, &is_over)
+            });
+            match begun {
+                Ok(thread) => reels.reels.push(Reel { format, path, pictures, thread }),
+                Err(error) => {
+                    let _ = reels.end(true);
+                    return Err(error);
+                }
+            }
+        }
+        Ok(reels)
     }
 
-    /// Hands the next picture on; waits while too many do. Whether all films still take pictures.
+    /// Hands the next picture on; waits while too many do. Whether all films still take pictures, and nobody wants to
+    /// stop.
     pub fn add(&self, picture: &Arc<RepeatedPicture>) -> bool {
-        self.reels.iter().all(|reel| reel.pictures.send(picture.clone()).is_ok())
+        self.reels.iter().all(|reel| {
+            let mut next = picture.clone();
+            loop {
+                match reel.pictures.try_send(next) {
+                    Ok(()) => return true,
+                    Err(TrySendError::Disconnected(_)) => return false,
+                    Err(TrySendError::Full(_)) if self.progress.is_cancelled() => return false,
+                    Err(TrySendError::Full(again)) => next = again,
+                }
+                std::thread::sleep(LOOK);
+            }
+        })
     }
 
-    /// Ends the films: how many became whole, and what went wrong if anything did. One that lacks pictures leaves no file.
-    pub fn end(self) -> (usize, Result<(), OutputError>) {
-        let (mut whole, mut outcome) = (0, Ok(()));
-        for Reel { path, pictures, thread } in self.reels {
+    /// Ends the films: those that became whole, and what went wrong if anything did. One that lacks pictures leaves no
+    /// file; where the job `is_cancelled`, what waits is not encoded.
+    pub fn end(self, is_cancelled: bool) -> (Vec<FilmFormat>, Result<(), OutputError>) {
+        self.is_over.store(is_cancelled, Ordering::Relaxed);
+        let (mut whole, mut outcome) = (Vec::new(), Ok(()));
+        for Reel { format, path, pictures, thread } in self.reels {
             drop(pictures);
             let ended = thread.join().unwrap_or_else(|_| {
                 let error = std::io::Error::other("its encoder broke down");
                 Err(OutputError { path, error })
             });
             match ended {
-                Ok(is_whole) => whole += usize::from(is_whole),
+                Ok(true) => whole.push(format),
+                Ok(false) => {}
                 Err(error) => outcome = outcome.and(Err(error)),
             }
         }
@@ -88,9 +124,13 @@ fn spawn(
 fn filled(
     mut writer: FilmWriter,
     pictures: Receiver<Arc<RepeatedPicture>>,
+    is_over: &AtomicBool,
 ) -> Result<bool, OutputError> {
     for picture in pictures {
-        writer.add(picture.picture())?;
+        if is_over.load(Ordering::Relaxed) {
+            return Ok(false);
+        }
+        writer.add(&picture)?;
     }
     if !writer.is_whole() {
         return Ok(false);

@@ -1,4 +1,4 @@
-//! Whole games, as numbered pictures in folders.
+//! Whole games, as numbered pictures and films in folders.
 
 use std::fs;
 use std::ops::RangeInclusive;
@@ -9,14 +9,15 @@ use super::captions::GameCaptions;
 use super::desk::{Desk, Sheet};
 use super::reels::{Films, Reels};
 use super::report::{FrameRow, Manifest, ReportLine, Status, VariationLine, tags, texts};
-use super::studio::{PictureSettings, Studio, shots};
+use super::shots::Shots;
+use super::studio::{PictureSettings, Studio};
 use super::{JobError, Progress, Showing};
 use crate::config::Config;
 use crate::game::{Game, Moment, Selection, shortened};
 use crate::notation::Color;
 use crate::output::{
-    Cut, FrameNames, PictureFormat, film_name, manifest_name, prepare_folder, remove_frames,
-    write_json, write_json_lines,
+    FrameNames, PictureFormat, film_name, manifest_name, prepare_folder, remove_frames, write_json,
+    write_json_lines,
 };
 use crate::timeline::{Bodies, Script, Timeline};
 use crate::tracer::RayCounts;
@@ -200,9 +201,8 @@ impl Run<'_> {
     ) -> Result<(), JobError> {
         let folder = &variation.map_or(folder.to_owned(), |name| folder.join(name));
         prepare_folder(folder)?;
-        let usual = || FrameNames::new(PictureFormat::Png);
-        let wanted = self.job.frames.as_ref();
-        remove_frames(folder, &self.job.names.clone().unwrap_or_else(usual), wanted)?;
+        let (wanted, names) = (self.job.frames.as_ref(), self.job.names.as_ref());
+        remove_frames(folder, names, wanted)?;
         let players = [Color::White, Color::Black].map(|color| shortened(game.player(color), 60));
         self.progress.game(&players.join(" – "));
         let timeline =
@@ -210,15 +210,21 @@ impl Run<'_> {
                 JobError::Path { file: batch.file.clone(), game: game.number, error }
             })?;
         let captions = GameCaptions::new(game, self.job.picture.config.captions);
-        let cut = self.cut(&timeline, &captions, part);
-        let film = |format| folder.join(film_name(format, wanted));
-        let reels = Reels::begin(&self.job.films, &cut.cut, film)?;
+        let (films, fps) = (&self.job.films, self.script.film.fps);
+        let mut begins = Vec::new().into_iter();
+        let mut reels = None;
+        if !films.formats.is_empty() {
+            let shots = Shots::of(&self.job.picture, &timeline, &captions, part, fps);
+            let film = |format| folder.join(film_name(format, wanted));
+            reels = Some(Reels::begin(films, &shots.cut, self.progress, film)?);
+            begins = shots.begins.into_iter();
+        }
+        let mut begins = begins.peekable();
         let mut rows = Vec::new();
-        let format = self.job.names.as_ref().map_or(PictureFormat::Png, FrameNames::format);
+        let format = names.map_or(PictureFormat::Png, FrameNames::format);
         let desk = Desk::new(self.progress, format);
         let mut filmed = 0;
         rayon::in_place_scope(|scope| {
-            let mut begins = cut.begins.iter().peekable();
             for index in part.frames.clone() {
                 self.summary.cancelled = self.progress.is_cancelled();
                 if self.summary.cancelled || desk.has_failed() {
@@ -228,10 +234,14 @@ impl Run<'_> {
                 let coming = (index + 1..part.frames.end).map(|index| timeline.frame(index));
                 let content = captions.of(&frame);
                 let picture = self.studio.picture(&frame, content.as_ref(), coming);
-                if begins.next_if(|begin| **begin == index).is_some() && !reels.add(&picture) {
+                let is_shot = begins.next_if_eq(&index).is_some();
+                if let Some(reels) = reels.as_ref().filter(|_| is_shot)
+                    && !reels.add(&picture)
+                {
+                    self.summary.cancelled = self.progress.is_cancelled();
                     break;
                 }
-                let name = self.job.names.as_ref().map(|names| names.name(index));
+                let name = names.map(|names| names.name(index));
                 match &name {
                     Some(name) => {
                         let (path, texts) = (folder.join(name), texts(game, &frame));
@@ -247,8 +257,11 @@ impl Run<'_> {
         });
         let (written, outcome) = desk.close();
         self.summary.frames += written + filmed;
-        let (films, filming) = reels.end();
-        self.summary.films += films;
+        let (films, filming) = match reels {
+            Some(reels) => reels.end(self.summary.cancelled || outcome.is_err()),
+            None => (Vec::new(), Ok(())),
+        };
+        self.summary.films += films.len();
         outcome?;
         filming?;
         let manifest = Manifest {
@@ -264,43 +277,9 @@ impl Run<'_> {
             film: self.job.showing.animate.then_some(self.job.showing.film),
             orbit: self.job.showing.orbit,
             orbits_each_move: self.job.showing.orbits_each_move,
-            films: if self.summary.cancelled { Vec::new() } else { self.film_names() },
+            films: films.into_iter().map(|format| film_name(format, wanted)).collect(),
             frames: rows,
         };
         Ok(write_json(&folder.join(manifest_name(wanted)), &manifest)?)
     }
-
-    fn film_names(&self) -> Vec<String> {
-        let wanted = self.job.frames.as_ref();
-        self.job.films.formats.iter().map(|format| film_name(*format, wanted)).collect()
-    }
-
-    /// The shots of a part of a game, if any film is made of it.
-    fn cut(&self, timeline: &Timeline, captions: &GameCaptions, part: &Part) -> Shots {
-        let settings = &self.job.picture;
-        let Config { width, height, .. } = settings.config;
-        let fps = self.script.film.fps;
-        let mut cut = Cut { size: [width, height], fps, ends: Vec::new() };
-        if self.job.films.formats.is_empty() {
-            return Shots { begins: Vec::new(), cut };
-        }
-        let frames = part.frames.clone().map(|index| {
-            let frame = timeline.frame(index);
-            let content = captions.of(&frame);
-            (frame, content)
-        });
-        let first = part.frames.start;
-        let begins: Vec<usize> = shots(settings, frames).map(|shot| first + shot).collect();
-        let start = timeline.begins(first);
-        let next = begins.iter().copied().skip(1).chain([part.frames.end]);
-        cut.ends = next.map(|index| timeline.begins(index) - start).collect();
-        Shots { begins, cut }
-    }
-}
-
-/// The pictures of a film that differ.
-struct Shots {
-    /// The first frame of each.
-    begins: Vec<usize>,
-    cut: Cut,
 }

@@ -35,7 +35,7 @@ pub struct ReportLine {
     status: Status,
     /// Half-moves that could be played.
     plies: usize,
-    /// Pictures that were written.
+    /// Pictures that were written, or went into films.
     frames: usize,
     /// The folder of the pictures, beside the report.
     folder: Option<String>,

@@ -192,24 +192,7 @@ impl<'a> Studio<'a> {
 }
 
 /// What of a frame can be seen in the scene.
-fn shown_of(settings: &PictureSettings, frame: &Frame) -> Frame {
+pub(super) fn shown_of(settings: &PictureSettings, frame: &Frame) -> Frame {
     let dials = frame.dials.clone().filter(|_| settings.config.clock.show == ShowClock::Game);
     Frame { dials, ..frame.clone() }
-}
-
-/// Of frames in their order with what is said on them, those that look otherwise than the one before, by number;
-/// the first one is among them. [`Studio::picture`] makes a picture of each, and of no other.
-pub(super) fn shots(
-    settings: &PictureSettings,
-    frames: impl Iterator<Item = (Frame, Option<Content>)>,
-) -> impl Iterator<Item = usize> {
-    let mut last: Option<(Frame, Option<Content>)> = None;
-    frames.enumerate().filter_map(move |(index, (frame, content))| {
-        let shown = shown_of(settings, &frame);
-        let is_same = last
-            .as_ref()
-            .is_some_and(|(last, said)| shown.shows_the_same(last) && *said == content);
-        last = Some((shown, content));
-        (!is_same).then_some(index)
-    })
 }

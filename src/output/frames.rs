@@ -1,9 +1,12 @@
-//! Names of numbered pictures.
+//! Names of numbered pictures, films and manifests.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::io;
 use std::ops::RangeInclusive;
 use std::path::Path;
+
+use serde_json::Value;
 
 use super::OutputError;
 use super::film::{FILM_FORMATS, FilmFormat};
@@ -45,13 +48,16 @@ impl FrameNames {
             return wrong("has no number, or more than one");
         };
         if !(1..=MOST_DIGITS).contains(&digits) {
-            return wrong("asks for too many digits");
+            return wrong("asks for no digits, or too many");
         }
         let is_plain = |c: char| {
             !c.is_control() && !matches!(c, '/' | '\\' | ':' | '*' | '?' | '"' | '<' | '>' | '|')
         };
         if !pattern.chars().all(is_plain) || pattern.starts_with('.') || pattern.starts_with(' ') {
             return wrong("is no file name");
+        }
+        if pattern.ends_with('.') {
+            return wrong("ends with a dot");
         }
         // A number on either side would be read as part of this one.
         if before.ends_with(|c: char| c.is_ascii_digit())
@@ -138,18 +144,19 @@ pub fn film_name(format: FilmFormat, part: Option<&RangeInclusive<usize>>) -> St
     }
 }
 
-/// Removes the numbered pictures of an earlier run from `folder`, by `names` and by their usual ones, its films,
+/// Removes the numbered pictures of an earlier run from `folder`, by `names`, by their usual ones and by its manifest, its films,
 /// manifests of parts of it, and all of its variations: they would stand among the new ones, and be of another film.
-/// Where a `part` is rendered, only its pictures and films.
+/// Where a `part` is rendered, only its film, and its pictures where there are to be others.
 ///
 /// # Errors
 /// When the folder cannot be read, or a picture cannot be removed.
 pub fn remove_frames(
     folder: &Path,
-    names: &FrameNames,
+    names: Option<&FrameNames>,
     part: Option<&RangeInclusive<usize>>,
 ) -> Result<(), OutputError> {
     let failed = |error| OutputError { path: folder.to_owned(), error };
+    let listed = listed(folder);
     for entry in fs::read_dir(folder).map_err(failed)? {
         let entry = entry.map_err(failed)?;
         let name = entry.file_name().to_string_lossy().into_owned();
@@ -160,8 +167,9 @@ pub fn remove_frames(
             continue;
         }
         let is_old = match (frame_index(&name, names), part) {
-            (Some(index), Some(part)) => part.contains(&index),
+            (Some(index), Some(part)) => names.is_some() && part.contains(&index),
             (Some(_), None) => true,
+            (None, None) if listed.contains(&name) => true,
             (None, Some(part)) => {
                 FILM_FORMATS.iter().any(|(_, film)| name == film_name(*film, Some(part)))
             }
@@ -175,7 +183,7 @@ pub fn remove_frames(
 }
 
 /// Removes what a variation's folder holds of ours; without a manifest it is another's, unless it is empty.
-fn remove_variation(folder: &Path, names: &FrameNames) -> Result<(), OutputError> {
+fn remove_variation(folder: &Path, names: Option<&FrameNames>) -> Result<(), OutputError> {
     let failed = |error| OutputError { path: folder.to_owned(), error };
     let manifest = folder.join(manifest_name(None));
     if manifest.is_file() {
@@ -211,9 +219,19 @@ fn is_variation(name: &str) -> bool {
 }
 
 /// Which picture has that name, by `names` or usually.
-fn frame_index(name: &str, names: &FrameNames) -> Option<usize> {
+fn frame_index(name: &str, names: Option<&FrameNames>) -> Option<usize> {
     let usual = || FORMATS.iter().find_map(|(_, format)| FrameNames::new(*format).index(name));
-    names.index(name).or_else(usual)
+    names.and_then(|names| names.index(name)).or_else(usual)
+}
+
+/// The pictures that a folder's manifest names, by files of formats that we write.
+fn listed(folder: &Path) -> BTreeSet<String> {
+    let manifest = fs::read(folder.join(manifest_name(None))).unwrap_or_default();
+    let manifest: Value = serde_json::from_slice(&manifest).unwrap_or_default();
+    let rows = manifest["frames"].as_array().into_iter().flatten();
+    let files = rows.filter_map(|row| row["file"].as_str());
+    let is_picture = |file: &&str| PictureFormat::of(Path::new(file)).is_some();
+    files.filter(is_picture).map(str::to_owned).collect()
 }
 
 fn is_part_manifest(name: &str) -> bool {
@@ -249,14 +267,14 @@ mod tests {
         for index in [0, 7, 1_234_567] {
             for names in [&usual, &own] {
                 assert_eq!(names.index(&names.name(index)), Some(index));
-                assert_eq!(frame_index(&names.name(index), &own), Some(index));
+                assert_eq!(frame_index(&names.name(index), Some(&own)), Some(index));
             }
         }
-        assert_eq!(frame_index("frame_00007.webp", &own), Some(7));
+        assert_eq!(frame_index("frame_00007.webp", None), Some(7));
         for other in
             ["frame_1.png", "frame_0000x.png", "frame_00001.gif", "a_frame_00001.png", "my 12.jpg"]
         {
-            assert_eq!(frame_index(other, &own), None, "{other}");
+            assert_eq!(frame_index(other, Some(&own)), None, "{other}");
         }
     }
 
@@ -279,7 +297,8 @@ mod tests {
             ("%d-%d.png", None, "more than one"),
             ("#a#.png", None, "more than one"),
             ("%5d.png", None, "no number"),
-            ("%099d.png", None, "too many digits"),
+            ("%099d.png", None, "too many"),
+            ("%d_a.", None, "ends with a dot"),
             ("a/%d.png", None, "no file name"),
             (".%d.png", None, "no file name"),
             ("1%d.png", None, "digits beside"),

@@ -56,7 +56,7 @@ const RARE: f64 = 1.4;
 /// of its way there.
 const FOLLOWING: f64 = 0.22;
 
-/// Degrees between the turns of an orbit that are looked at. Between two of them a corner reaches at
+/// Degrees between the turns of an orbit that are looked at. Candidates two of them a corner reaches at
 /// most 0.1 % farther from the axis than in one.
 const ORBIT_STEP: f64 = 5.0;
 

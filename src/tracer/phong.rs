@@ -9,7 +9,7 @@ use super::optics::{facing, mirrored, refracted};
 use super::pinhole::Pinhole;
 use super::plane::Spot;
 use super::ties::{Ties, Ties8};
-use super::world::{Between, OFFSET, World};
+use super::world::{Candidates, OFFSET, World};
 use crate::lanes::{F32x8, LANES, Mask8, Simd, Task, Vec3x8, dispatch, math};
 use crate::packet::Rays;
 use crate::packet::boxes::Aabb;
@@ -118,7 +118,7 @@ impl<'a> Phong<'a> {
 
     /// What may be met through the places from `start` that neighbouring packets have, if that is few.
     #[inline(always)]
-    fn ahead<S: Simd>(&self, places: &Places, start: usize) -> Option<Between> {
+    fn ahead<S: Simd>(&self, places: &Places, start: usize) -> Option<Candidates> {
         if start + NEIGHBOURS * LANES > places.x.len() {
             return None;
         }
@@ -135,7 +135,7 @@ impl<'a> Phong<'a> {
         &self,
         places: &Places,
         start: usize,
-        ahead: Option<&Between>,
+        ahead: Option<&Candidates>,
         ties: Option<&mut Vec<Ties>>,
     ) -> (Vec3x8<S>, Walk<S>) {
         let count = (places.x.len() - start).min(LANES);
@@ -175,7 +175,7 @@ impl<'a> Phong<'a> {
     fn radiance<S: Simd>(
         &self,
         flight: &Flight<S>,
-        ahead: Option<&Between>,
+        ahead: Option<&Candidates>,
         walk: &mut Walk<S>,
     ) -> Vec3x8<S> {
         S::run(
@@ -344,24 +344,33 @@ struct Look<'a, 'b, T> {
     ties: Option<&'a mut Vec<Ties>>,
 }
 
-impl Task for Look<'_, '_, Shade> {
-    type Output = RayCounts;
-
+impl<T> Look<'_, '_, T> {
+    /// Looks through all places; `tell` says what of it is kept of a packet of so many.
     #[inline(always)]
-    fn run<S: Simd>(self) -> RayCounts {
+    fn through<S: Simd>(self, tell: impl Fn(&mut Vec<T>, Vec3x8<S>, &Walk<S>, usize)) -> RayCounts {
         let Look { eye, places, seen, mut ties } = self;
-        let mut counts = RayCounts::default();
-        let mut ahead = None;
+        let (mut counts, mut ahead) = (RayCounts::default(), None);
         for (index, start) in (0..places.x.len()).step_by(LANES).enumerate() {
             if index % NEIGHBOURS == 0 {
                 ahead = eye.ahead::<S>(places, start);
             }
             let (color, walk) = eye.packet::<S>(places, start, ahead.as_ref(), ties.as_deref_mut());
-            let count = (places.x.len() - start).min(LANES);
-            seen.extend_from_slice(&walk.shades(color)[..count]);
+            tell(seen, color, &walk, (places.x.len() - start).min(LANES));
             counts = counts + walk.counts;
         }
         counts
+    }
+}
+
+impl Task for Look<'_, '_, Shade> {
+    type Output = RayCounts;
+
+    #[inline(always)]
+    fn run<S: Simd>(self) -> RayCounts {
+        self.through::<S>(
+            #[inline(always)]
+            |seen, color, walk, count| seen.extend_from_slice(&walk.shades(color)[..count]),
+        )
     }
 }
 
@@ -370,22 +379,15 @@ impl Task for Look<'_, '_, Seen> {
 
     #[inline(always)]
     fn run<S: Simd>(self) -> RayCounts {
-        let Look { eye, places, seen, mut ties } = self;
-        let mut counts = RayCounts::default();
-        let mut ahead = None;
-        for (index, start) in (0..places.x.len()).step_by(LANES).enumerate() {
-            if index % NEIGHBOURS == 0 {
-                ahead = eye.ahead::<S>(places, start);
-            }
-            let (color, walk) = eye.packet::<S>(places, start, ahead.as_ref(), ties.as_deref_mut());
-            let count = (places.x.len() - start).min(LANES);
-            let (shades, footprints) = (walk.shades(color), walk.footprints.store());
-            for (shade, footprint) in shades.into_iter().zip(footprints).take(count) {
-                seen.push(Seen { shade, footprint });
-            }
-            counts = counts + walk.counts;
-        }
-        counts
+        self.through::<S>(
+            #[inline(always)]
+            |seen, color, walk, count| {
+                let (shades, footprints) = (walk.shades(color), walk.footprints.store());
+                for (shade, footprint) in shades.into_iter().zip(footprints).take(count) {
+                    seen.push(Seen { shade, footprint });
+                }
+            },
+        )
     }
 }
 

@@ -59,8 +59,8 @@ pub struct Search<S: Simd> {
     pub before: F32x8<S>,
 }
 
-/// What may stand between points and a light.
-pub struct Between {
+/// What rays that keep together may meet, whatever has no end apart.
+pub struct Candidates {
     /// Bodies that have an end.
     bodies: Few,
     /// Members of the cast that are not there, but would be.
@@ -228,9 +228,10 @@ impl<'a> World<'a> {
         )
     }
 
-    /// What the `lanes` of packets of such rays may meet; if that is not few, nothing.
+    /// What the `lanes` of packets of rays that are likely to keep together, with directions of length 1, may meet; if
+    /// that is not few, nothing.
     #[inline(always)]
-    pub fn ahead<S: Simd>(&self, packets: &[Rays<S>], lanes: Mask8<S>) -> Option<Between> {
+    pub fn ahead<S: Simd>(&self, packets: &[Rays<S>], lanes: Mask8<S>) -> Option<Candidates> {
         let from = Aabb::of_packets(packets, F32x8::splat(0.0), lanes);
         let ((middle, radius), spread) = (self.ball, (from.max - from.min).length());
         let reach = (from.middle() - middle).length() + spread + radius;
@@ -243,7 +244,7 @@ impl<'a> World<'a> {
     #[inline(always)]
     pub fn nearest_of<S: Simd>(
         &self,
-        ahead: &Between,
+        ahead: &Candidates,
         rays: &Rays<S>,
         before: F32x8<S>,
         lanes: Mask8<S>,
@@ -300,10 +301,10 @@ impl<'a> World<'a> {
 
     /// What may stand between points within `from` and a light within `to`.
     #[inline(always)]
-    pub fn between<S: Simd>(&self, from: &Aabb, to: &Aabb) -> Between {
+    pub fn between<S: Simd>(&self, from: &Aabb, to: &Aabb) -> Candidates {
         let shaft = Shaft::new(from, to);
         let bodies = self.crowd.among::<S>(&shaft);
-        Between { bodies, absent: self.absent_among::<S>(&shaft) }
+        Candidates { bodies, absent: self.absent_among::<S>(&shaft) }
     }
 
     #[inline(always)]
@@ -321,7 +322,7 @@ impl<'a> World<'a> {
         &self,
         points: Vec3x8<S>,
         corners: &[Vec3],
-        between: &Between,
+        between: &Candidates,
     ) -> Mask8<S> {
         if !between.bodies.is_empty() || !between.absent.is_empty() {
             return Mask8::no_lanes();
@@ -342,7 +343,7 @@ impl<'a> World<'a> {
         rays: &Rays<S>,
         distance: F32x8<S>,
         lanes: Mask8<S>,
-        between: &Between,
+        between: &Candidates,
         ties: &mut Option<Ties8<S>>,
     ) -> F32x8<S> {
         S::run(

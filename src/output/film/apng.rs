@@ -2,12 +2,13 @@
 
 use std::fs::File;
 use std::io::{self, BufWriter};
+use std::sync::Arc;
 
-use image::DynamicImage;
 use png::{BitDepth, BlendOp, ColorType, Compression, DisposeOp, Encoder, Writer};
 
-use super::Encode;
 use super::patch::Patch;
+use super::{Cut, Encode};
+use crate::output::RepeatedPicture;
 
 /// It can count anything; milliseconds are fine enough.
 pub const RATE: f64 = 1000.0;
@@ -17,12 +18,14 @@ const MOST: u64 = u16::MAX as u64;
 
 pub struct Apng {
     writer: Writer<BufWriter<File>>,
-    last: Option<DynamicImage>,
+    is_transparent: bool,
+    last: Option<Arc<RepeatedPicture>>,
 }
 
 impl Apng {
     /// For pictures that stand for so many steps each; those that stand for none are no frames.
-    pub fn new(file: File, [width, height]: [u32; 2], steps: &[u64]) -> io::Result<Apng> {
+    pub fn new(file: File, cut: &Cut, steps: &[u64]) -> io::Result<Apng> {
+        let [width, height] = cut.size;
         let frames = steps.iter().map(|steps| steps.div_ceil(MOST)).sum::<u64>();
         let mut encoder = Encoder::new(BufWriter::new(file), width, height);
         encoder.set_color(ColorType::Rgba);
@@ -30,7 +33,8 @@ impl Apng {
         encoder.set_compression(Compression::Balanced);
         encoder.set_animated(u32::try_from(frames).unwrap_or(u32::MAX), 0)?;
         encoder.set_dispose_op(DisposeOp::None)?;
-        Ok(Apng { writer: encoder.write_header()?, last: None })
+        let writer = encoder.write_header()?;
+        Ok(Apng { writer, is_transparent: cut.is_transparent, last: None })
     }
 
     /// Writes a frame that is laid over, or takes the place of, what was there.
@@ -47,15 +51,16 @@ impl Apng {
 }
 
 impl Encode for Apng {
-    fn add(&mut self, picture: &DynamicImage, steps: u64) -> io::Result<()> {
+    fn add(&mut self, added: &Arc<RepeatedPicture>, steps: u64) -> io::Result<()> {
+        let picture = added.picture();
         let patch = match &self.last {
-            Some(last) => Patch::between(last, picture),
+            Some(last) => Patch::between(last.picture(), picture),
             None => Patch::whole([picture.width(), picture.height()]),
         };
         // What becomes transparent again cannot be laid over what is there.
-        let last = self.last.as_ref().filter(|_| !picture.color().has_alpha());
+        let last = self.last.as_ref().filter(|_| !self.is_transparent);
         let (pixels, blend) = match last {
-            Some(last) => (patch.change(last, picture), BlendOp::Over),
+            Some(last) => (patch.change(last.picture(), picture), BlendOp::Over),
             None => (patch.of(picture), BlendOp::Source),
         };
         self.write(patch, pixels.as_raw(), blend, steps.min(MOST))?;
@@ -64,7 +69,7 @@ impl Encode for Apng {
             self.write(Patch::PIXEL, &[0; 4], BlendOp::Over, rest.min(MOST))?;
             rest = rest.saturating_sub(MOST);
         }
-        self.last = Some(picture.clone());
+        self.last = Some(added.clone());
         Ok(())
     }
 

@@ -5,12 +5,12 @@ use std::ffi::OsString;
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStderr, Command, Stdio};
+use std::sync::Arc;
 use std::thread::JoinHandle;
-
-use image::DynamicImage;
 
 use super::Encode;
 use super::yuv::Yuv;
+use crate::output::RepeatedPicture;
 
 /// An ffmpeg that can make MP4.
 #[derive(Clone, Debug)]
@@ -160,8 +160,8 @@ impl Pipe {
 }
 
 impl Encode for Pipe {
-    fn add(&mut self, picture: &DynamicImage, steps: u64) -> io::Result<()> {
-        self.yuv.read(picture);
+    fn add(&mut self, picture: &Arc<RepeatedPicture>, steps: u64) -> io::Result<()> {
+        self.yuv.read(picture.picture());
         for _ in 0..steps {
             let written = self.child.stdin.as_mut().map(|pipe| pipe.write_all(self.yuv.bytes()));
             if let Some(Err(error)) = written {

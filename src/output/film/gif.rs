@@ -2,13 +2,15 @@
 
 use std::fs::File;
 use std::io::{self, BufWriter};
+use std::sync::Arc;
 
 use gif::{DisposalMethod, Encoder, Frame, Repeat};
-use image::{DynamicImage, RgbaImage};
+use image::RgbaImage;
 use imagequant::{Attributes, RGBA};
 
-use super::Encode;
 use super::patch::Patch;
+use super::{Cut, Encode};
+use crate::output::RepeatedPicture;
 
 /// It counts hundredths of a second; browsers take one that is shorter than two for a tenth.
 pub const RATE: f64 = 100.0;
@@ -22,57 +24,53 @@ const SPEED: i32 = 7;
 
 pub struct Gif {
     encoder: Encoder<BufWriter<File>>,
-    last: Option<DynamicImage>,
+    is_transparent: bool,
+    last: Option<Arc<RepeatedPicture>>,
 }
 
 impl Gif {
-    pub fn new(file: File, size: [u32; 2]) -> io::Result<Gif> {
-        let [width, height] = size.map(|side| u16::try_from(side).unwrap_or(u16::MAX));
+    pub fn new(file: File, cut: &Cut) -> io::Result<Gif> {
+        let [width, height] = cut.size.map(|side| u16::try_from(side).unwrap_or(u16::MAX));
         let mut encoder =
             Encoder::new(BufWriter::new(file), width, height, &[]).map_err(io::Error::other)?;
         encoder.set_repeat(Repeat::Infinite).map_err(io::Error::other)?;
-        Ok(Gif { encoder, last: None })
+        Ok(Gif { encoder, is_transparent: cut.is_transparent, last: None })
     }
 
-    /// Writes a frame, or one of a single pixel more for each time that is longer than a frame's can be.
-    fn write(&mut self, frame: Frame<'_>, steps: u64) -> io::Result<()> {
-        let most = u64::from(u16::MAX);
-        let first = steps.min(most);
-        let mut rest = steps - first;
-        let delay = first as u16;
-        self.encoder.write_frame(&Frame { delay, ..frame }).map_err(io::Error::other)?;
-        while rest > 0 {
-            let delay = rest.min(most) as u16;
-            rest -= u64::from(delay);
-            let pixel = Frame {
-                delay,
-                dispose: DisposalMethod::Keep,
-                transparent: Some(0),
-                width: 1,
-                height: 1,
-                palette: Some(vec![0; 3]),
-                buffer: vec![0].into(),
-                ..Frame::default()
-            };
-            self.encoder.write_frame(&pixel).map_err(io::Error::other)?;
+    /// Writes a frame, and for times that are longer than a frame's can be more of them.
+    fn write(&mut self, mut frame: Frame<'_>, steps: u64) -> io::Result<()> {
+        let mut rest = steps;
+        loop {
+            frame.delay = rest.min(u64::from(u16::MAX)) as u16;
+            self.encoder.write_frame(&frame).map_err(io::Error::other)?;
+            rest -= u64::from(frame.delay);
+            if rest == 0 {
+                return Ok(());
+            }
+            // What is taken away is put there again; over what stays a pixel of nothing is enough.
+            if frame.dispose == DisposalMethod::Keep {
+                let pixel = Frame::from_palette_pixels(1, 1, vec![0], vec![0; 3], Some(0));
+                frame = Frame { dispose: DisposalMethod::Keep, ..pixel };
+            }
         }
-        Ok(())
     }
 }
 
 impl Encode for Gif {
-    fn add(&mut self, picture: &DynamicImage, steps: u64) -> io::Result<()> {
+    fn add(&mut self, added: &Arc<RepeatedPicture>, steps: u64) -> io::Result<()> {
+        let picture = added.picture();
         let size = [picture.width(), picture.height()];
         // What becomes transparent again can only be so by being taken away.
-        let is_clear = picture.color().has_alpha();
-        let (patch, change) = match self.last.as_ref().filter(|_| !is_clear) {
+        let last = self.last.as_ref().filter(|_| !self.is_transparent);
+        let (patch, change) = match last.map(|last| last.picture()) {
             Some(last) => {
                 let patch = Patch::between(last, picture);
                 (patch, patch.change(last, picture))
             }
             None => (Patch::whole(size), picture.to_rgba8()),
         };
-        let dispose = if is_clear { DisposalMethod::Background } else { DisposalMethod::Keep };
+        let dispose =
+            if self.is_transparent { DisposalMethod::Background } else { DisposalMethod::Keep };
         let Colors { palette, transparent, buffer } = Colors::of(change)?;
         let [left, top, width, height] =
             [patch.left, patch.top, patch.width, patch.height].map(|side| side as u16);
@@ -90,7 +88,7 @@ impl Encode for Gif {
             ..Frame::default()
         };
         self.write(frame, steps)?;
-        self.last = Some(picture.clone());
+        self.last = Some(added.clone());
         Ok(())
     }
 
@@ -139,20 +137,32 @@ impl Colors {
         let (palette, mut buffer) = made().map_err(io::Error::other)?;
         let has_clear = clear.contains(&true);
         // Whatever the palette has for it: what did not change is not to be touched, and what did is.
-        let opaque: Vec<usize> = (0..palette.len()).filter(|index| palette[*index].a > 0).collect();
-        let number = opaque.len().min(255) as u8;
-        let mut numbers = vec![0; 256];
-        for (new, old) in (0..=255_u8).zip(&opaque) {
-            numbers[*old] = new;
+        let mut numbers = [None; 256];
+        let mut colors: Vec<[u8; 3]> = Vec::new();
+        for (number, color) in numbers.iter_mut().zip(&palette).filter(|(_, color)| color.a > 0) {
+            *number = Some(colors.len() as u8);
+            colors.push([color.r, color.g, color.b]);
         }
-        for (index, is_clear) in buffer.iter_mut().zip(&clear) {
-            *index = if *is_clear { number } else { numbers[usize::from(*index)] };
+        let number = colors.len() as u8;
+        for ((index, is_clear), pixel) in buffer.iter_mut().zip(&clear).zip(picture.pixels()) {
+            *index = match numbers[usize::from(*index)] {
+                _ if *is_clear => number,
+                Some(number) => number,
+                None => nearest(&colors, pixel.0),
+            };
         }
-        let colors = opaque.iter().map(|index| palette[*index]);
-        let mut palette: Vec<u8> = colors.flat_map(|color| [color.r, color.g, color.b]).collect();
+        let mut palette = colors.concat();
         if has_clear {
             palette.extend([0; 3]);
         }
         Ok(Colors { palette, transparent: has_clear.then_some(number), buffer })
     }
+}
+
+/// The colour that is nearest to a pixel's, by number.
+fn nearest(colors: &[[u8; 3]], pixel: [u8; 4]) -> u8 {
+    let distance = |color: &[u8; 3]| -> u32 {
+        color.iter().zip(pixel).map(|(a, b)| u32::from(a.abs_diff(b)).pow(2)).sum()
+    };
+    (0..).zip(colors).min_by_key(|(_, color)| distance(color)).map_or(0, |(number, _)| number)
 }

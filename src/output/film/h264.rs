@@ -2,8 +2,8 @@
 
 use std::fs::File;
 use std::io::{self, BufWriter};
+use std::sync::Arc;
 
-use image::DynamicImage;
 use muxide::api::{Muxer, MuxerBuilder, VideoCodec};
 use openh264::OpenH264API;
 use openh264::encoder::{
@@ -14,6 +14,7 @@ use openh264::formats::YUVSlices;
 
 use super::Encode;
 use super::yuv::Yuv;
+use crate::output::RepeatedPicture;
 
 /// The coarsest and finest steps of a picture's frequencies.
 const STEPS: (u8, u8) = (18, 26);
@@ -60,8 +61,8 @@ impl H264 {
 }
 
 impl Encode for H264 {
-    fn add(&mut self, picture: &DynamicImage, steps: u64) -> io::Result<()> {
-        self.yuv.read(picture);
+    fn add(&mut self, picture: &Arc<RepeatedPicture>, steps: u64) -> io::Result<()> {
+        self.yuv.read(picture.picture());
         let [y, cb, cr] = self.yuv.planes();
         let [width, height] = self.size;
         let planes = YUVSlices::new((y, cb, cr), (width, height), (width, width / 2, width / 2));
@@ -77,8 +78,10 @@ impl Encode for H264 {
         Ok(())
     }
 
-    fn finish(self: Box<Self>) -> io::Result<()> {
-        self.muxer.finish().map_err(io::Error::other)
+    fn finish(mut self: Box<Self>) -> io::Result<()> {
+        self.muxer.finish_in_place().map_err(io::Error::other)?;
+        self.muxer.into_writer().into_inner().map_err(io::IntoInnerError::into_error)?;
+        Ok(())
     }
 }
 

@@ -17,11 +17,12 @@ pub use ffmpeg::{Ffmpeg, FfmpegError};
 
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use image::DynamicImage;
 use tempfile::NamedTempFile;
 
-use super::{OutputError, temporary};
+use super::{OutputError, RepeatedPicture, temporary};
 
 /// What a film may be written as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,15 +64,29 @@ impl FilmFormat {
         }
     }
 
-    /// The smallest and the largest width and height that it has.
-    pub fn sides(self) -> [u32; 2] {
-        match self {
-            FilmFormat::Gif => [1, 65_535],
-            FilmFormat::Apng => [1, 1 << 30],
-            FilmFormat::Webp => [1, 16_383],
-            // What H.264's encoders take, with ffmpeg or without.
-            FilmFormat::Mp4 => [16, if cfg!(feature = "h264") { 3840 } else { 16_384 }],
+    /// Checks that it can have pictures of `size`, where MP4 is made by ffmpeg or not.
+    ///
+    /// # Errors
+    /// What it can have, in words.
+    pub fn check(self, [width, height]: [u32; 2], has_ffmpeg: bool) -> Result<(), String> {
+        let (least, longer, shorter) = match self {
+            FilmFormat::Gif => (1, 65_535, 65_535),
+            FilmFormat::Apng => (1, 1 << 30, 1 << 30),
+            FilmFormat::Webp => (1, 16_383, 16_383),
+            FilmFormat::Mp4 if has_ffmpeg => (16, 16_384, 16_384),
+            // OpenH264's limits.
+            FilmFormat::Mp4 => (16, 3840, 2160),
+        };
+        let sides = [width.min(height), width.max(height)];
+        if sides[0] >= least && sides[0] <= shorter && sides[1] <= longer {
+            return Ok(());
         }
+        let inside = if self == FilmFormat::Mp4 && !has_ffmpeg { " without ffmpeg" } else { "" };
+        let name = self.ending();
+        let most = format!("{longer}x{shorter}");
+        Err(format!(
+            "expected a size from {least}x{least} to {most} for {name}{inside}, found {width}x{height}"
+        ))
     }
 }
 
@@ -82,6 +97,8 @@ pub struct Cut {
     pub size: [u32; 2],
     /// Pictures a second, where the format has no times of its own.
     pub fps: f64,
+    /// Whether its pictures have transparent parts.
+    pub is_transparent: bool,
     /// When each picture ends, in seconds from the beginning; never before the one before it.
     pub ends: Vec<f64>,
 }
@@ -110,10 +127,10 @@ impl Cut {
     }
 }
 
-/// Puts pictures into a file.
+/// Puts pictures into a file; all are RGBA in a transparent film, and RGB in others.
 trait Encode {
     /// Adds the next picture, for `steps`, at least 1.
-    fn add(&mut self, picture: &DynamicImage, steps: u64) -> io::Result<()>;
+    fn add(&mut self, picture: &Arc<RepeatedPicture>, steps: u64) -> io::Result<()>;
 
     /// Writes what is left to be written.
     fn finish(self: Box<Self>) -> io::Result<()>;
@@ -124,6 +141,7 @@ pub struct FilmWriter {
     path: PathBuf,
     file: NamedTempFile,
     encoder: Box<dyn Encode>,
+    is_transparent: bool,
     steps: std::vec::IntoIter<u64>,
 }
 
@@ -139,15 +157,16 @@ impl FilmWriter {
         ffmpeg: Option<&Ffmpeg>,
     ) -> Result<FilmWriter, OutputError> {
         let begun = || -> io::Result<FilmWriter> {
+            format.check(cut.size, ffmpeg.is_some()).map_err(io::Error::other)?;
             let file = temporary(path)?;
             let (steps, encoder): (_, Box<dyn Encode>) = match (format, ffmpeg) {
                 (FilmFormat::Gif, _) => {
                     let steps = cut.steps(gif::RATE, gif::LEAST);
-                    (steps, Box::new(gif::Gif::new(file.reopen()?, cut.size)?))
+                    (steps, Box::new(gif::Gif::new(file.reopen()?, cut)?))
                 }
                 (FilmFormat::Apng, _) => {
                     let steps = cut.steps(apng::RATE, 1);
-                    let encoder = apng::Apng::new(file.reopen()?, cut.size, &steps)?;
+                    let encoder = apng::Apng::new(file.reopen()?, cut, &steps)?;
                     (steps, Box::new(encoder))
                 }
                 #[cfg(feature = "webp")]
@@ -167,7 +186,8 @@ impl FilmWriter {
                 _ => return Err(io::ErrorKind::Unsupported.into()),
             };
             let steps = steps.into_iter();
-            Ok(FilmWriter { path: path.to_owned(), file, encoder, steps })
+            let is_transparent = cut.is_transparent;
+            Ok(FilmWriter { path: path.to_owned(), file, encoder, is_transparent, steps })
         };
         begun().map_err(|error| OutputError { path: path.to_owned(), error })
     }
@@ -176,12 +196,24 @@ impl FilmWriter {
     ///
     /// # Errors
     /// When it cannot be encoded or written.
-    pub fn add(&mut self, picture: &DynamicImage) -> Result<(), OutputError> {
+    pub fn add(&mut self, picture: &Arc<RepeatedPicture>) -> Result<(), OutputError> {
         let added = match self.steps.next() {
             None | Some(0) => Ok(()),
-            Some(steps) => self.encoder.add(picture, steps),
+            Some(steps) => self.encoder.add(&self.of_kind(picture), steps),
         };
         added.map_err(|error| OutputError { path: self.path.clone(), error })
+    }
+
+    /// A picture of the film's kind: opaque ones, such as titles, may be among others.
+    fn of_kind(&self, picture: &Arc<RepeatedPicture>) -> Arc<RepeatedPicture> {
+        let found = picture.picture();
+        match (self.is_transparent, found) {
+            (true, DynamicImage::ImageRgba8(_)) | (false, DynamicImage::ImageRgb8(_)) => {
+                picture.clone()
+            }
+            (true, _) => Arc::new(RepeatedPicture::new(found.to_rgba8().into())),
+            (false, _) => Arc::new(RepeatedPicture::new(found.to_rgb8().into())),
+        }
     }
 
     /// Whether all pictures are there.
@@ -210,7 +242,24 @@ mod tests {
     use proptest::prelude::*;
 
     fn cut(ends: Vec<f64>) -> Cut {
-        Cut { size: [4, 4], fps: 25.0, ends }
+        Cut { size: [4, 4], fps: 25.0, is_transparent: false, ends }
+    }
+
+    #[test]
+    fn sizes_are_what_formats_can_have() {
+        let fits = |format: FilmFormat, size, has_ffmpeg| format.check(size, has_ffmpeg).is_ok();
+        assert!(
+            fits(FilmFormat::Mp4, [3840, 2160], false)
+                && fits(FilmFormat::Mp4, [1080, 1920], false)
+        );
+        assert!(
+            !fits(FilmFormat::Mp4, [2400, 2400], false)
+                && fits(FilmFormat::Mp4, [2400, 2400], true)
+        );
+        assert!(
+            !fits(FilmFormat::Mp4, [15, 100], true) && !fits(FilmFormat::Webp, [16_384, 2], true)
+        );
+        assert!(fits(FilmFormat::Gif, [1, 65_535], false) && fits(FilmFormat::Apng, [1, 1], false));
     }
 
     #[test]

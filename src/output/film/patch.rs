@@ -1,6 +1,6 @@
 //! What of a picture is other than in the one before.
 
-use image::{DynamicImage, GenericImageView, Rgba, RgbaImage};
+use image::{DynamicImage, Rgba, RgbaImage};
 
 /// A rectangle of pixels: left, top, width and height.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,9 +55,16 @@ impl Patch {
     /// The same, where it is as `before` transparent.
     pub fn change(&self, before: &DynamicImage, picture: &DynamicImage) -> RgbaImage {
         let mut change = self.of(picture);
-        for (x, y, pixel) in change.enumerate_pixels_mut() {
-            if before.get_pixel(self.left + x, self.top + y) == *pixel {
-                *pixel = Rgba([0; 4]);
+        let (was, channels) = (before.as_bytes(), usize::from(before.color().channel_count()));
+        let row = |y: u32| {
+            let start = (self.top + y) as usize * before.width() as usize + self.left as usize;
+            was[channels * start..].chunks_exact(channels)
+        };
+        for (y, pixels) in (0..).zip(change.rows_mut()) {
+            for (pixel, was) in pixels.zip(row(y)) {
+                if pixel.0[..channels] == *was {
+                    *pixel = Rgba([0; 4]);
+                }
             }
         }
         change

@@ -2,11 +2,12 @@
 
 use std::fs::File;
 use std::io::{self, Write};
+use std::sync::Arc;
 
-use image::DynamicImage;
 use webp_animation::{Encoder, EncoderOptions, EncodingConfig};
 
 use super::Encode;
+use crate::output::RepeatedPicture;
 
 /// It counts milliseconds.
 pub const RATE: f64 = 1000.0;
@@ -35,8 +36,8 @@ impl Webp {
 }
 
 impl Encode for Webp {
-    fn add(&mut self, picture: &DynamicImage, steps: u64) -> io::Result<()> {
-        self.encoder.add_frame(picture.to_rgba8().as_raw(), self.time).map_err(failed)?;
+    fn add(&mut self, picture: &Arc<RepeatedPicture>, steps: u64) -> io::Result<()> {
+        self.encoder.add_frame(picture.picture().to_rgba8().as_raw(), self.time).map_err(failed)?;
         self.time = self.time.saturating_add(i32::try_from(steps).unwrap_or(i32::MAX));
         Ok(())
     }

@@ -9,7 +9,7 @@ use crate::packet::Rays;
 use crate::packet::boxes::Aabb;
 use crate::tracer::lights::LightBox;
 use crate::tracer::outlook::{self, BOXES, SKY};
-use crate::tracer::world::Between;
+use crate::tracer::world::Candidates;
 
 /// Ways to points of a softbox.
 struct WayTo<S: Simd> {
@@ -127,7 +127,7 @@ impl Studio<'_> {
         way: &WayTo<S>,
         number: u32,
         asking: Mask8<S>,
-        between: &Between,
+        between: &Candidates,
         is_noted: bool,
         draw: &mut Draw<S>,
     ) -> F32x8<S> {
