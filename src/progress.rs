@@ -11,7 +11,7 @@ use lightsquare::job::Progress;
 
 use crate::signals::Signals;
 
-/// Candidates two plain lines.
+/// Between two plain lines.
 const EVERY: Duration = Duration::from_secs(5);
 
 /// How progress is shown.

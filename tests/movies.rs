@@ -508,15 +508,65 @@ mod stand_ins {
         assert!(said.contains("the disk is full"), "{said}");
         let names = names(folder.path());
         assert!(names.contains(&"frame_00000.png".to_owned()), "{names:?}");
-        assert!(names.iter().all(|name| name.starts_with("frame_")), "{names:?}");
-        assert!(files(folder.path()).values().all(|bytes| image::load_from_memory(bytes).is_ok()));
+        assert!(
+            names.iter().all(|name| name.starts_with("frame_") || name == "game.json"),
+            "{names:?}"
+        );
+        assert!(!pictures(folder.path()).is_empty());
+    }
+
+    /// Hidden files are those that are not whole.
+    #[test]
+    fn an_ffmpeg_that_hangs_does_not_keep_ctrl_c_from_its_work() {
+        let folder = TempDir::new().unwrap();
+        fs::write(folder.path().join("game.pgn"), GAME).unwrap();
+        let program =
+            program(folder.path(), &format!("{KNOWN}: > hangs; while :; do /bin/sleep 1; done"));
+        let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_lightsquare"))
+            .current_dir(folder.path())
+            .args([
+                "render", "game.pgn", "--size", "400x400", "--film", "mp4", "--ffmpeg", &program,
+            ])
+            .args(TIMES)
+            .args(PLAIN)
+            .stderr(std::process::Stdio::null())
+            .spawn()
+            .unwrap();
+        while !folder.path().join("hangs").exists() {
+            std::thread::yield_now();
+        }
+        let id = child.id().to_string();
+        assert!(std::process::Command::new("kill").args(["-INT", &id]).status().unwrap().success());
+        assert_eq!(child.wait().unwrap().code(), Some(130));
+        let names = names(folder.path());
+        assert!(
+            names.iter().all(|name| !name.contains("film") && !name.starts_with('.')),
+            "{names:?}"
+        );
+    }
+
+    #[test]
+    fn an_ffmpeg_that_writes_nothing_has_failed() {
+        let folder = TempDir::new().unwrap();
+        for (script, expected) in [
+            ("/bin/cat > /dev/null", "without having written anything"),
+            ("exit 0", "ffmpeg ended"),
+        ] {
+            let program = program(folder.path(), &format!("{KNOWN}{script}"));
+            let options = ["--film", "mp4", "--ffmpeg", program.as_str(), "--no-frames"];
+            let (code, said) = run(folder.path(), "", &[&TIMES, &options]);
+            assert!(code == 1 && said.contains(expected), "{said}");
+            assert_eq!(names(folder.path()), ["game.json"]);
+            assert!(manifest(folder.path()).get("films").is_none());
+        }
     }
 
     #[test]
     fn an_ffmpeg_gets_every_picture_for_its_time() {
         let folder = TempDir::new().unwrap();
         // What it is told, and how much it is given.
-        let counts = "echo \"$*\" > told; /usr/bin/wc -c > got";
+        let counts = "echo \"$*\" > told; /usr/bin/tee got.bytes | /usr/bin/wc -c > got; \
+            for file; do :; done; echo film > \"${file#file:}\"";
         let program = program(folder.path(), &format!("{KNOWN}{counts}"));
         let options = ["--film", "mp4", "--ffmpeg", program.as_str(), "--fps", "30", "--no-frames"];
         let (code, said) = run(folder.path(), "", &[&TIMES, &options]);

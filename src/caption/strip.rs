@@ -25,7 +25,7 @@ const BAR: f32 = 0.28;
 /// White between the move and the number behind it.
 const BESIDE_NUMBER: f32 = 0.55;
 
-/// Candidates the parts of a name, in ems.
+/// Between the parts of a name, in ems.
 const GAP: f32 = 0.34;
 
 /// The widest move that is usual; at its smallest it always has room between the names.

@@ -175,7 +175,7 @@ impl FilmArgs {
         };
         if config.is_transparent() && !names.format().has_alpha() {
             bail!(UsageError(format!(
-                "--format: pictures without background need png, tiff or webp, found {}",
+                "--transparent: expected a --format of png, tiff or webp, found {}",
                 names.format().ending()
             )));
         }
@@ -205,7 +205,7 @@ impl FilmArgs {
             }
             if *format == FilmFormat::Mp4 && config.is_transparent() {
                 bail!(UsageError(
-                    "--film: mp4 cannot be transparent, expected apng, webp or gif, or a background"
+                    "--transparent: mp4 cannot be transparent, expected apng, webp or gif"
                         .to_owned()
                 ));
             }

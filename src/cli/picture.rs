@@ -127,6 +127,8 @@ impl PictureArgs {
         if let Some(place) = place {
             let config = &mut settings.config;
             (config.width, config.height) = self.size.unwrap_or(place.size());
+            let view = self.camera.or(place.camera());
+            config.camera.view = view.unwrap_or(config.camera.view);
             config.captured = self.captured.or(place.captured()).unwrap_or(config.captured);
             config.captions.show = true;
         }

@@ -1,7 +1,7 @@
 //! Places that films are made for.
 
 use clap::ValueEnum;
-use lightsquare::config::Captured;
+use lightsquare::config::{Captured, View};
 use lightsquare::output::FilmFormat;
 
 /// Where a film goes.
@@ -34,6 +34,11 @@ impl Preset {
 
     pub fn film(self) -> FilmFormat {
         if self == Preset::Gif { FilmFormat::Gif } else { FilmFormat::Mp4 }
+    }
+
+    /// The camera that fills the picture best, where it is not the usual one.
+    pub fn camera(self) -> Option<View> {
+        (self == Preset::Tall).then_some(View::Above)
     }
 
     /// Where captured pieces stay: where there is little room for the board, it gets all of it.

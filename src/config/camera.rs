@@ -37,6 +37,8 @@ pub enum View {
     Black,
     /// Straight down, in parallel projection, rank 8 on top.
     Top,
+    /// From high above White's side: a board that is nearly as high as wide.
+    Above,
     /// From the side of the h-file.
     Side,
     /// As White sees the board.
@@ -54,10 +56,11 @@ pub enum View {
 }
 
 /// Views, by name.
-pub const VIEWS: [(&str, View); 10] = [
+pub const VIEWS: [(&str, View); 11] = [
     ("white", View::White),
     ("black", View::Black),
     ("top", View::Top),
+    ("above", View::Above),
     ("side", View::Side),
     ("player", View::Player),
     ("mover", View::Mover),

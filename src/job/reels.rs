@@ -2,14 +2,13 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
 use super::Progress;
 
-use crate::output::{Cut, Ffmpeg, FilmFormat, FilmWriter, OutputError, RepeatedPicture};
+use crate::output::{Cut, Ffmpeg, FilmFormat, FilmWriter, OutputError, RepeatedPicture, Stop};
 
 /// How many pictures may wait for a film: enough that a picture that takes long does not hold up the others, and no more
 /// than memory has room for.
@@ -27,14 +26,13 @@ pub struct Films {
 pub struct Reels<'a> {
     progress: &'a dyn Progress,
     reels: Vec<Reel>,
-    /// Whether pictures that wait need not be encoded any more.
-    is_over: Arc<AtomicBool>,
 }
 
 struct Reel {
     format: FilmFormat,
     path: PathBuf,
     pictures: SyncSender<Arc<RepeatedPicture>>,
+    stop: Stop,
     thread: JoinHandle<Result<bool, OutputError>>,
 }
 
@@ -52,19 +50,20 @@ impl<'a> Reels<'a> {
         progress: &'a dyn Progress,
         file: impl Fn(FilmFormat) -> PathBuf,
     ) -> Result<Reels<'a>, OutputError> {
-        let mut reels = Reels { progress, reels: Vec::new(), is_over: Arc::default() };
+        let mut reels = Reels { progress, reels: Vec::new() };
         for format in films.formats.iter().copied() {
             let path = file(format);
             let (pictures, waiting) = sync_channel(WAITING);
             let (target, cut, ffmpeg) = (path.clone(), cut.clone(), films.ffmpeg.clone());
-            let is_over = reels.is_over.clone();
+            let stop = Stop::default();
+            let stopped = stop.clone();
             // Not every encoder can go from one thread to another.
             let begun = spawn(&path, move || {
-                let writer = FilmWriter::new(&target, format, &cut, ffmpeg.as_ref())?;
-                filled(writer, waiting, &is_over)
+                let writer = FilmWriter::new(&target, format, &cut, ffmpeg.as_ref(), &stopped)?;
+                filled(writer, waiting, &stopped)
             });
             match begun {
-                Ok(thread) => reels.reels.push(Reel { format, path, pictures, thread }),
+                Ok(thread) => reels.reels.push(Reel { format, path, pictures, stop, thread }),
                 Err(error) => {
                     let _ = reels.end(true);
                     return Err(error);
@@ -92,20 +91,26 @@ impl<'a> Reels<'a> {
     }
 
     /// Ends the films: those that became whole, and what went wrong if anything did. One that lacks pictures leaves no
-    /// file; where the job `is_cancelled`, what waits is not encoded.
-    pub fn end(self, is_cancelled: bool) -> (Vec<FilmFormat>, Result<(), OutputError>) {
-        self.is_over.store(is_cancelled, Ordering::Relaxed);
+    /// file; where the job `is_over`, or is cancelled meanwhile, what waits is not encoded.
+    pub fn end(self, is_over: bool) -> (Vec<FilmFormat>, Result<(), OutputError>) {
         let (mut whole, mut outcome) = (Vec::new(), Ok(()));
-        for Reel { format, path, pictures, thread } in self.reels {
+        for Reel { format, path, pictures, stop, thread } in self.reels {
             drop(pictures);
+            while !thread.is_finished() {
+                if is_over || self.progress.is_cancelled() {
+                    stop.now();
+                }
+                std::thread::sleep(LOOK);
+            }
             let ended = thread.join().unwrap_or_else(|_| {
                 let error = std::io::Error::other("its encoder broke down");
                 Err(OutputError { path, error })
             });
             match ended {
                 Ok(true) => whole.push(format),
-                Ok(false) => {}
-                Err(error) => outcome = outcome.and(Err(error)),
+                // What is told to stop may well complain.
+                Err(error) if !stop.is_wanted() => outcome = outcome.and(Err(error)),
+                Ok(false) | Err(_) => {}
             }
         }
         (whole, outcome)
@@ -124,10 +129,10 @@ fn spawn(
 fn filled(
     mut writer: FilmWriter,
     pictures: Receiver<Arc<RepeatedPicture>>,
-    is_over: &AtomicBool,
+    stop: &Stop,
 ) -> Result<bool, OutputError> {
     for picture in pictures {
-        if is_over.load(Ordering::Relaxed) {
+        if stop.is_wanted() {
             return Ok(false);
         }
         writer.add(&picture)?;

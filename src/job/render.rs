@@ -16,8 +16,8 @@ use crate::config::Config;
 use crate::game::{Game, Moment, Selection, shortened};
 use crate::notation::Color;
 use crate::output::{
-    FrameNames, PictureFormat, film_name, manifest_name, prepare_folder, remove_frames, write_json,
-    write_json_lines,
+    FilmFormat, FrameNames, PictureFormat, film_name, manifest_name, prepare_folder, remove_frames,
+    write_json, write_json_lines,
 };
 use crate::timeline::{Bodies, Script, Timeline};
 use crate::tracer::RayCounts;
@@ -77,7 +77,7 @@ pub fn render(job: &RenderJob, progress: &dyn Progress) -> Result<Summary, JobEr
     for (input, name) in job.inputs.iter().zip(folder_names(&job.inputs)) {
         batches.push(read_batch(job, &script, input, job.out.join(name), progress)?);
     }
-    say_sizes(job, progress);
+    say_films(job, progress);
     let pool = job.picture.pool()?;
     let studio = Studio::new(&job.picture, job.showing.reach(config))?;
     let script = job.showing.script(config, studio.bodies().clone());
@@ -96,8 +96,14 @@ pub fn render(job: &RenderJob, progress: &dyn Progress) -> Result<Summary, JobEr
     Ok(run.summary)
 }
 
-/// Tells of films that are smaller than their pictures.
-fn say_sizes(job: &RenderJob, progress: &dyn Progress) {
+/// Tells of films that are smaller than their pictures, and who makes them.
+fn say_films(job: &RenderJob, progress: &dyn Progress) {
+    if job.films.formats.contains(&FilmFormat::Mp4) {
+        progress.detail(&match &job.films.ffmpeg {
+            Some(ffmpeg) => format!("mp4 by {ffmpeg}"),
+            None => "mp4 by the encoder inside".to_owned(),
+        });
+    }
     let Config { width, height, .. } = job.picture.config;
     for format in &job.films.formats {
         let [columns, rows] = format.size([width, height]);
@@ -263,7 +269,6 @@ impl Run<'_> {
         };
         self.summary.films += films.len();
         outcome?;
-        filming?;
         let manifest = Manifest {
             file: &batch.file,
             game: game.number,
@@ -280,6 +285,7 @@ impl Run<'_> {
             films: films.into_iter().map(|format| film_name(format, wanted)).collect(),
             frames: rows,
         };
-        Ok(write_json(&folder.join(manifest_name(wanted)), &manifest)?)
+        write_json(&folder.join(manifest_name(wanted)), &manifest)?;
+        Ok(filming?)
     }
 }

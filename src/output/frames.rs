@@ -45,7 +45,7 @@ impl FrameNames {
             ))
         };
         let Some((before, digits, after)) = number_in(pattern) else {
-            return wrong("has no number, or more than one");
+            return wrong("has no number as %05d or #####, or more than one");
         };
         if !(1..=MOST_DIGITS).contains(&digits) {
             return wrong("asks for no digits, or too many");
@@ -145,7 +145,7 @@ pub fn film_name(format: FilmFormat, part: Option<&RangeInclusive<usize>>) -> St
 }
 
 /// Removes the numbered pictures of an earlier run from `folder`, by `names`, by their usual ones and by its manifest, its films,
-/// manifests of parts of it, and all of its variations: they would stand among the new ones, and be of another film.
+/// its manifests, and all of its variations: they would stand among the new ones, and be of another film.
 /// Where a `part` is rendered, only its film, and its pictures where there are to be others.
 ///
 /// # Errors
@@ -173,7 +173,7 @@ pub fn remove_frames(
             (None, Some(part)) => {
                 FILM_FORMATS.iter().any(|(_, film)| name == film_name(*film, Some(part)))
             }
-            (None, None) => is_part_manifest(&name) || is_film(&name),
+            (None, None) => is_manifest(&name) || is_film(&name),
         };
         if is_old && !kind.is_dir() {
             remove_if_there(&entry.path()).map_err(failed)?;
@@ -232,6 +232,11 @@ fn listed(folder: &Path) -> BTreeSet<String> {
     let files = rows.filter_map(|row| row["file"].as_str());
     let is_picture = |file: &&str| PictureFormat::of(Path::new(file)).is_some();
     files.filter(is_picture).map(str::to_owned).collect()
+}
+
+/// Whether a manifest, or one of a part, has that name.
+fn is_manifest(name: &str) -> bool {
+    name == manifest_name(None) || is_part_manifest(name)
 }
 
 fn is_part_manifest(name: &str) -> bool {

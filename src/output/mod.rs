@@ -11,7 +11,7 @@ mod record;
 mod repeated;
 mod slug;
 
-pub use film::{Cut, FILM_FORMATS, Ffmpeg, FfmpegError, FilmFormat, FilmWriter};
+pub use film::{Cut, FILM_FORMATS, Ffmpeg, FfmpegError, FilmFormat, FilmWriter, Stop};
 pub use frames::{FrameNames, film_name, manifest_name, remove_frames};
 pub use picture::{FORMATS, PictureFormat, write_picture};
 pub use png::encode_png;

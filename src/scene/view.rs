@@ -56,7 +56,7 @@ const RARE: f64 = 1.4;
 /// of its way there.
 const FOLLOWING: f64 = 0.22;
 
-/// Degrees between the turns of an orbit that are looked at. Candidates two of them a corner reaches at
+/// Degrees between the turns of an orbit that are looked at. Between two of them a corner reaches at
 /// most 0.1 % farther from the axis than in one.
 const ORBIT_STEP: f64 = 5.0;
 
@@ -129,6 +129,7 @@ fn stand(view: View) -> Option<Stand> {
         View::White | View::Mover | View::Follow => (45.0, ASIDE, Some(26.0)),
         View::Black => (45.0, ASIDE + 180.0, Some(26.0)),
         View::Top => (90.0, 0.0, None),
+        View::Above => (62.0, 0.0, Some(26.0)),
         View::Side => (35.0, 90.0, Some(26.0)),
         View::Player => (32.0, 0.0, Some(36.0)),
         View::Thesis | View::Free | View::Path => return None,

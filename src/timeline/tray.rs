@@ -5,10 +5,10 @@ use super::bodies::Bodies;
 use super::pieces::{Mover, Spot, Taken};
 use crate::notation::{Color, Role};
 
-/// Candidates the board's frame and a column, and between columns, in squares.
+/// Between the board's frame and a column, and between columns, in squares.
 const GAP: f64 = 0.1;
 
-/// Candidates two pieces of a column, in squares.
+/// Between two pieces of a column, in squares.
 const APART: f64 = 0.06;
 
 /// How far a column reaches beyond the board at its other end, in squares: so that all that a player can

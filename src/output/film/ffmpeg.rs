@@ -4,9 +4,10 @@ use std::collections::VecDeque;
 use std::ffi::OsString;
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
-use std::process::{Child, ChildStderr, Command, Stdio};
-use std::sync::Arc;
+use std::process::{Child, ChildStderr, ChildStdin, Command, Stdio};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
+use std::time::Duration;
 
 use super::Encode;
 use super::yuv::Yuv;
@@ -42,6 +43,12 @@ const PRESET: &str = "veryfast";
 /// How many of the lines that it says are kept.
 const LINES: usize = 8;
 
+impl std::fmt::Display for Ffmpeg {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        self.path.display().fmt(f)
+    }
+}
+
 impl Ffmpeg {
     /// The program at `path`, or of that name where the system looks for programs.
     ///
@@ -52,10 +59,10 @@ impl Ffmpeg {
             let asked = Command::new(path).args(arguments).stdin(Stdio::null()).output();
             asked.map_err(|error| FfmpegError::Start { path: path.to_owned(), error })
         };
-        let said = ask(&["-hide_banner", "-version"])?;
-        let said = String::from_utf8_lossy(&said.stdout).into_owned();
-        let first = said.lines().next().unwrap_or_default();
-        if !first.starts_with("ffmpeg version") {
+        let answer = ask(&["-hide_banner", "-version"])?;
+        let said = [&answer.stdout, &answer.stderr].map(|said| String::from_utf8_lossy(said));
+        let first = said.iter().find_map(|said| said.lines().next()).unwrap_or_default();
+        if !answer.status.success() || !first.starts_with("ffmpeg version") {
             let said = first.chars().filter(|c| !c.is_control()).take(60).collect();
             return Err(FfmpegError::Other { path: path.to_owned(), said });
         }
@@ -67,7 +74,13 @@ impl Ffmpeg {
     }
 
     /// Starts it, for a film of pictures of an even width and height.
-    pub(super) fn film(&self, file: &Path, size: [u32; 2], fps: f64) -> io::Result<Pipe> {
+    pub(super) fn film(
+        &self,
+        file: &Path,
+        size: [u32; 2],
+        fps: f64,
+        stop: &Stop,
+    ) -> io::Result<Pipe> {
         let [width, height] = size;
         let before = ["-hide_banner", "-loglevel", "error", "-nostdin", "-y", "-f", "rawvideo"];
         let input = [
@@ -114,7 +127,9 @@ impl Ffmpeg {
         std::os::unix::process::CommandExt::process_group(&mut command, 0);
         let mut child = command.spawn()?;
         let said = child.stderr.take().map(|stderr| std::thread::spawn(|| last_lines(stderr)));
-        Ok(Pipe { child, said, yuv: Yuv::new(size) })
+        let (stdin, child) = (child.stdin.take(), Arc::new(Mutex::new(child)));
+        stop.ends(child.clone());
+        Ok(Pipe { file: file.to_owned(), stdin, child, said, yuv: Yuv::new(size) })
     }
 }
 
@@ -140,7 +155,9 @@ fn last_lines(stderr: ChildStderr) -> Vec<String> {
 
 /// An ffmpeg at work.
 pub struct Pipe {
-    child: Child,
+    file: PathBuf,
+    stdin: Option<ChildStdin>,
+    child: Arc<Mutex<Child>>,
     said: Option<JoinHandle<Vec<String>>>,
     yuv: Yuv,
 }
@@ -148,8 +165,14 @@ pub struct Pipe {
 impl Pipe {
     /// Waits for its end; what it said last, if it has failed.
     fn end(&mut self) -> io::Result<()> {
-        drop(self.child.stdin.take());
-        let status = self.child.wait()?;
+        drop(self.stdin.take());
+        // Whoever wants to stop it needs the lock meanwhile.
+        let status = loop {
+            match locked(&self.child).try_wait()? {
+                Some(status) => break status,
+                None => std::thread::sleep(LOOK),
+            }
+        };
         let said = self.said.take().and_then(|said| said.join().ok()).unwrap_or_default();
         if status.success() {
             return Ok(());
@@ -159,22 +182,64 @@ impl Pipe {
     }
 }
 
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// How long it is waited between two looks at a program that is to end.
+const LOOK: Duration = Duration::from_millis(2);
+
+/// Stops what makes a film.
+#[derive(Clone, Default)]
+pub struct Stop(Arc<Mutex<Stopping>>);
+
+#[derive(Default)]
+struct Stopping {
+    is_wanted: bool,
+    child: Option<Arc<Mutex<Child>>>,
+}
+
+impl Stop {
+    /// A program at work, which is killed when it is to stop.
+    fn ends(&self, child: Arc<Mutex<Child>>) {
+        locked(&self.0).child = Some(child);
+    }
+
+    /// Nothing more is wanted of the film.
+    pub fn now(&self) {
+        let mut stopping = locked(&self.0);
+        stopping.is_wanted = true;
+        if let Some(child) = &stopping.child {
+            // It may have ended by itself.
+            let _ = locked(child).kill();
+        }
+    }
+
+    pub fn is_wanted(&self) -> bool {
+        locked(&self.0).is_wanted
+    }
+}
+
 impl Encode for Pipe {
     fn add(&mut self, picture: &Arc<RepeatedPicture>, steps: u64) -> io::Result<()> {
         self.yuv.read(picture.picture());
         for _ in 0..steps {
-            let written = self.child.stdin.as_mut().map(|pipe| pipe.write_all(self.yuv.bytes()));
-            if let Some(Err(error)) = written {
+            let written = self.stdin.as_mut().map(|pipe| pipe.write_all(self.yuv.bytes()));
+            if let Some(Err(_)) = written {
                 // Its own words say more than that it has gone.
                 self.end()?;
-                return Err(error);
+                return Err(io::Error::other("ffmpeg ended before the film did"));
             }
         }
         Ok(())
     }
 
     fn finish(mut self: Box<Self>) -> io::Result<()> {
-        self.end()
+        self.end()?;
+        if std::fs::metadata(&self.file)?.len() == 0 {
+            return Err(io::Error::other("ffmpeg ended without having written anything"));
+        }
+        Ok(())
     }
 }
 
@@ -182,8 +247,8 @@ impl Drop for Pipe {
     /// A film that is not finished is nobody's.
     fn drop(&mut self) {
         if self.said.is_some() {
-            let _ = self.child.kill();
-            let _ = self.child.wait();
+            let _ = locked(&self.child).kill();
+            let _ = self.end();
         }
     }
 }

@@ -13,7 +13,7 @@ mod patch;
 mod webp;
 mod yuv;
 
-pub use ffmpeg::{Ffmpeg, FfmpegError};
+pub use ffmpeg::{Ffmpeg, FfmpegError, Stop};
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -146,7 +146,7 @@ pub struct FilmWriter {
 }
 
 impl FilmWriter {
-    /// For a film of at least one picture; MP4 is made by `ffmpeg` where there is one.
+    /// For a film of at least one picture; MP4 is made by `ffmpeg` where there is one, which `stop` can end.
     ///
     /// # Errors
     /// When the file cannot be made.
@@ -155,6 +155,7 @@ impl FilmWriter {
         format: FilmFormat,
         cut: &Cut,
         ffmpeg: Option<&Ffmpeg>,
+        stop: &Stop,
     ) -> Result<FilmWriter, OutputError> {
         let begun = || -> io::Result<FilmWriter> {
             format.check(cut.size, ffmpeg.is_some()).map_err(io::Error::other)?;
@@ -174,7 +175,8 @@ impl FilmWriter {
                     (cut.steps(webp::RATE, 1), Box::new(webp::Webp::new(file.reopen()?, cut.size)?))
                 }
                 (FilmFormat::Mp4, Some(ffmpeg)) => {
-                    let encoder = ffmpeg.film(file.path(), format.size(cut.size), cut.fps)?;
+                    let size = format.size(cut.size);
+                    let encoder = ffmpeg.film(file.path(), size, cut.fps, stop)?;
                     (cut.steps(cut.fps, 1), Box::new(encoder))
                 }
                 #[cfg(feature = "h264")]

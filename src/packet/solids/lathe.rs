@@ -83,7 +83,7 @@ struct AxisLines<S: Simd> {
     twice_pq: F32x8<S>,
     qq: F32x8<S>,
     cross2: F32x8<S>,
-    /// Candidates what distances something may be met.
+    /// Between what distances something may be met.
     from: F32x8<S>,
     to: F32x8<S>,
 }

@@ -60,7 +60,7 @@ struct FlatLines<S: Simd> {
     per_qq: F32x8<S>,
     /// Distances at which the lids' planes are crossed, the nearer one first.
     lids: [F32x8<S>; 2],
-    /// Candidates what distances walls matter.
+    /// Between what distances walls matter.
     from: F32x8<S>,
     to: F32x8<S>,
 }

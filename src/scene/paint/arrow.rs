@@ -44,7 +44,7 @@ impl Arrow {
         let tip = to - direction * free(is_taken);
         // The shaft's end is round.
         let begin = from + first * (free(is_left) + HALF_SHAFT);
-        // Candidates pieces on neighbouring squares there is hardly room for a head.
+        // Between pieces on neighbouring squares there is hardly room for a head.
         let head = HEAD.min((tip - bend.unwrap_or(begin)).dot(direction).max(1e-3));
         let neck = tip - direction * head;
         Arrow {

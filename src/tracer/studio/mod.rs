@@ -63,7 +63,7 @@ pub mod purpose {
     pub const SKY: u32 = 2;
     pub const MIRROR: u32 = 3;
     pub const SOFTBOX: u32 = 8;
-    /// Candidates the numbers of one reflection and the next.
+    /// Between the numbers of one reflection and the next.
     pub const STEP: u32 = 256;
 }
 
