@@ -136,7 +136,7 @@ fn bad_thesis_lines_and_settings_get_a_sentence() {
         (
             &["diagram", "--white", "KE1", "--camera", "wite"],
             2,
-            "invalid value 'wite' for '--camera <NAME>'\n  [possible values: white, black, top, side, \
+            "invalid value 'wite' for '--camera <NAME>'\n  [possible values: white, black, top, above, side, \
              player, mover, follow, thesis, free, path]\n\n  tip: a similar value exists: 'white'",
         ),
         (
@@ -178,7 +178,7 @@ fn bad_thesis_lines_and_settings_get_a_sentence() {
         (
             &["diagram", "--white", "KE1", "--transparent", "-o", "a.bmp"],
             2,
-            "--output: expected a .png file for a transparent picture, found `a.bmp`",
+            "--output: expected a .png, .tiff or .webp file for a transparent picture, found `a.bmp`",
         ),
         (
             &["export", "--white", "KE1", "--look", "studio"],
