@@ -1,14 +1,17 @@
 //! Films on their way to disk: each is encoded by a thread of its own, beside the tracing of what follows.
 
+use std::iter::Peekable;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
 use std::thread::JoinHandle;
 use std::time::Duration;
+use std::vec::IntoIter;
 
 use super::Progress;
+use super::shots::Shots;
 
-use crate::output::{Cut, Ffmpeg, FilmFormat, FilmWriter, OutputError, RepeatedPicture, Stop};
+use crate::output::{Ffmpeg, FilmFormat, FilmWriter, OutputError, RepeatedPicture, Stop};
 
 /// How many pictures may wait for a film: enough that a picture that takes long does not hold up the others, and no more
 /// than memory has room for.
@@ -26,6 +29,8 @@ pub struct Films {
 pub struct Reels<'a> {
     progress: &'a dyn Progress,
     reels: Vec<Reel>,
+    /// The first frames of shots that are still to come.
+    begins: Peekable<IntoIter<usize>>,
 }
 
 struct Reel {
@@ -40,17 +45,18 @@ struct Reel {
 const LOOK: Duration = Duration::from_millis(2);
 
 impl<'a> Reels<'a> {
-    /// Begins films in files that are named for each format.
+    /// Begins films of `shots` in files that are named for each format.
     ///
     /// # Errors
     /// When a thread cannot be started.
     pub fn begin(
         films: &Films,
-        cut: &Cut,
+        Shots { begins, cut }: Shots,
         progress: &'a dyn Progress,
         file: impl Fn(FilmFormat) -> PathBuf,
     ) -> Result<Reels<'a>, OutputError> {
-        let mut reels = Reels { progress, reels: Vec::new() };
+        let begins = begins.into_iter().peekable();
+        let mut reels = Reels { progress, reels: Vec::new(), begins };
         for format in films.formats.iter().copied() {
             let path = file(format);
             let (pictures, waiting) = sync_channel(WAITING);
@@ -73,9 +79,12 @@ impl<'a> Reels<'a> {
         Ok(reels)
     }
 
-    /// Hands the next picture on; waits while too many do. Whether all films still take pictures, and nobody wants to
-    /// stop.
-    pub fn add(&self, picture: &Arc<RepeatedPicture>) -> bool {
+    /// Hands the picture of a frame on if a shot begins with it; waits while too many do. Whether all films still take
+    /// pictures, and nobody wants to stop.
+    pub fn add(&mut self, frame: usize, picture: &Arc<RepeatedPicture>) -> bool {
+        if self.begins.next_if_eq(&frame).is_none() {
+            return true;
+        }
         self.reels.iter().all(|reel| {
             let mut next = picture.clone();
             loop {

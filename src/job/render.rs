@@ -217,15 +217,9 @@ impl Run<'_> {
             })?;
         let captions = GameCaptions::new(game, self.job.picture.config.captions);
         let (films, fps) = (&self.job.films, self.script.film.fps);
-        let mut begins = Vec::new().into_iter();
-        let mut reels = None;
-        if !films.formats.is_empty() {
-            let shots = Shots::of(&self.job.picture, &timeline, &captions, part, fps);
-            let film = |format| folder.join(film_name(format, wanted));
-            reels = Some(Reels::begin(films, &shots.cut, self.progress, film)?);
-            begins = shots.begins.into_iter();
-        }
-        let mut begins = begins.peekable();
+        let shots = Shots::of(films, &self.job.picture, &timeline, &captions, part, fps);
+        let film = |format| folder.join(film_name(format, wanted));
+        let mut reels = Reels::begin(films, shots, self.progress, film)?;
         let mut rows = Vec::new();
         let format = names.map_or(PictureFormat::Png, FrameNames::format);
         let desk = Desk::new(self.progress, format);
@@ -240,11 +234,7 @@ impl Run<'_> {
                 let coming = (index + 1..part.frames.end).map(|index| timeline.frame(index));
                 let content = captions.of(&frame);
                 let picture = self.studio.picture(&frame, content.as_ref(), coming);
-                let is_shot = begins.next_if_eq(&index).is_some();
-                if let Some(reels) = reels.as_ref().filter(|_| is_shot)
-                    && !reels.add(&picture)
-                {
-                    self.summary.cancelled = self.progress.is_cancelled();
+                if !reels.add(index, &picture) {
                     break;
                 }
                 let name = names.map(|names| names.name(index));
@@ -263,11 +253,11 @@ impl Run<'_> {
         });
         let (written, outcome) = desk.close();
         self.summary.frames += written + filmed;
-        let (films, filming) = match reels {
-            Some(reels) => reels.end(self.summary.cancelled || outcome.is_err()),
-            None => (Vec::new(), Ok(())),
-        };
+        let (films, filming) = reels.end(self.summary.cancelled || outcome.is_err());
         self.summary.films += films.len();
+        // A film that was waited for may have been told to stop.
+        let is_short = films.len() < self.job.films.formats.len();
+        self.summary.cancelled |= is_short && self.progress.is_cancelled();
         outcome?;
         let manifest = Manifest {
             file: &batch.file,

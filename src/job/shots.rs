@@ -2,6 +2,7 @@
 
 use super::batch::Part;
 use super::captions::GameCaptions;
+use super::reels::Films;
 use super::studio::{PictureSettings, shown_of};
 use crate::caption::Content;
 use crate::config::Config;
@@ -16,15 +17,23 @@ pub struct Shots {
 }
 
 impl Shots {
-    /// Of the frames of `part`, at `fps` a second where the format has no times of its own.
+    /// Of the frames of `part`, at `fps` a second where the format has no times of its own; none where there is
+    /// no film.
     pub fn of(
+        films: &Films,
         settings: &PictureSettings,
         timeline: &Timeline,
         captions: &GameCaptions,
         part: &Part,
         fps: f64,
     ) -> Shots {
+        let Config { width, height, .. } = settings.config;
+        let is_transparent = settings.config.is_transparent();
+        let mut cut = Cut { size: [width, height], fps, is_transparent, ends: Vec::new() };
         let mut begins = Vec::new();
+        if films.formats.is_empty() {
+            return Shots { begins, cut };
+        }
         // What the studio compares too, before it makes a picture anew.
         let mut last: Option<(Frame, Option<Content>)> = None;
         for index in part.frames.clone() {
@@ -40,9 +49,7 @@ impl Shots {
         }
         let start = timeline.begins(part.frames.start);
         let next = begins.iter().skip(1).copied().chain([part.frames.end]);
-        let ends = next.map(|index| timeline.begins(index) - start).collect();
-        let Config { width, height, .. } = settings.config;
-        let is_transparent = settings.config.is_transparent();
-        Shots { begins, cut: Cut { size: [width, height], fps, is_transparent, ends } }
+        cut.ends = next.map(|index| timeline.begins(index) - start).collect();
+        Shots { begins, cut }
     }
 }
