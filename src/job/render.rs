@@ -217,7 +217,11 @@ impl Run<'_> {
             })?;
         let captions = GameCaptions::new(game, self.job.picture.config.captions);
         let (films, fps) = (&self.job.films, self.script.film.fps);
-        let shots = Shots::of(films, &self.job.picture, &timeline, &captions, part, fps);
+        let shots = if films.formats.is_empty() {
+            Shots::default()
+        } else {
+            Shots::of(&self.job.picture, &timeline, &captions, part, fps)
+        };
         let film = |format| folder.join(film_name(format, wanted));
         let mut reels = Reels::begin(films, shots, self.progress, film)?;
         let mut rows = Vec::new();

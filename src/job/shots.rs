@@ -2,7 +2,6 @@
 
 use super::batch::Part;
 use super::captions::GameCaptions;
-use super::reels::Films;
 use super::studio::{PictureSettings, shown_of};
 use crate::caption::Content;
 use crate::config::Config;
@@ -10,6 +9,7 @@ use crate::output::Cut;
 use crate::timeline::{Frame, Timeline};
 
 /// The shots of a part of a game.
+#[derive(Default)]
 pub struct Shots {
     /// The first frame of each.
     pub begins: Vec<usize>,
@@ -17,23 +17,15 @@ pub struct Shots {
 }
 
 impl Shots {
-    /// Of the frames of `part`, at `fps` a second where the format has no times of its own; none where there is
-    /// no film.
+    /// Of the frames of `part`, at `fps` a second where the format has no times of its own.
     pub fn of(
-        films: &Films,
         settings: &PictureSettings,
         timeline: &Timeline,
         captions: &GameCaptions,
         part: &Part,
         fps: f64,
     ) -> Shots {
-        let Config { width, height, .. } = settings.config;
-        let is_transparent = settings.config.is_transparent();
-        let mut cut = Cut { size: [width, height], fps, is_transparent, ends: Vec::new() };
         let mut begins = Vec::new();
-        if films.formats.is_empty() {
-            return Shots { begins, cut };
-        }
         // What the studio compares too, before it makes a picture anew.
         let mut last: Option<(Frame, Option<Content>)> = None;
         for index in part.frames.clone() {
@@ -49,7 +41,9 @@ impl Shots {
         }
         let start = timeline.begins(part.frames.start);
         let next = begins.iter().skip(1).copied().chain([part.frames.end]);
-        cut.ends = next.map(|index| timeline.begins(index) - start).collect();
-        Shots { begins, cut }
+        let ends = next.map(|index| timeline.begins(index) - start).collect();
+        let Config { width, height, .. } = settings.config;
+        let is_transparent = settings.config.is_transparent();
+        Shots { begins, cut: Cut { size: [width, height], fps, is_transparent, ends } }
     }
 }

@@ -6,8 +6,7 @@ use std::ops::Range;
 use image::codecs::bmp::BmpEncoder;
 use image::{DynamicImage, ExtendedColorType};
 
-use super::per_metre;
-use super::picture::of_image;
+use super::{of_image, per_metre};
 
 /// Where the header has the pixels a metre, to the right and upwards.
 const PIXELS_PER_METRE: Range<usize> = 38..46;

@@ -23,11 +23,20 @@ use std::fs;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
+use image::ImageError;
 use tempfile::NamedTempFile;
 
 /// Pixels a metre, as files count them, where there are `dpi` an inch.
 fn per_metre(dpi: u32) -> u32 {
     (f64::from(dpi) / 0.0254).round() as u32
+}
+
+/// What went wrong as an encoder of `image` wrote.
+fn of_image(error: ImageError) -> io::Error {
+    match error {
+        ImageError::IoError(error) => error,
+        other => io::Error::other(other),
+    }
 }
 
 /// A file or folder that could not be written.

@@ -10,7 +10,7 @@ use image::{DynamicImage, ImageEncoder, ImageError};
 
 use super::bmp::encode_bmp;
 use super::png::encode_png;
-use super::{OutputError, write_whole};
+use super::{OutputError, of_image, write_whole};
 
 /// What a single picture may be written as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -96,14 +96,6 @@ pub fn encode(
 
 fn written(picture: &DynamicImage, encoder: impl ImageEncoder) -> Result<(), ImageError> {
     picture.write_with_encoder(encoder)
-}
-
-/// What went wrong as an encoder of `image` wrote.
-pub(super) fn of_image(error: ImageError) -> io::Error {
-    match error {
-        ImageError::IoError(error) => error,
-        other => io::Error::other(other),
-    }
 }
 
 /// Writes `picture` as the ending of `path` asks, PNG when no format does, as [`encode`] encodes it.

@@ -91,7 +91,7 @@ impl FilmFormat {
 }
 
 /// What is known of a film before its first picture.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Cut {
     /// Width and height of its pictures.
     pub size: [u32; 2],
