@@ -291,9 +291,7 @@ impl RenderArgs {
             picture,
         })
     }
-}
 
-impl RenderArgs {
     /// The settings, as the place that a film is for has them.
     fn settings(&self) -> anyhow::Result<PictureSettings> {
         self.picture.settings_for(self.film.preset(), Look::default())

@@ -230,7 +230,10 @@ fn listed(folder: &Path) -> BTreeSet<String> {
     let manifest: Value = serde_json::from_slice(&manifest).unwrap_or_default();
     let rows = manifest["frames"].as_array().into_iter().flatten();
     let files = rows.filter_map(|row| row["file"].as_str());
-    let is_picture = |file: &&str| PictureFormat::of(Path::new(file)).is_some();
+    let is_picture = |file: &&str| {
+        let ending = file.rsplit_once('.').map_or("", |(_, ending)| ending);
+        PictureFormat::named(ending).is_some()
+    };
     files.filter(is_picture).map(str::to_owned).collect()
 }
 
