@@ -42,6 +42,11 @@ fn run() -> anyhow::Result<ExitCode> {
         return Ok(ExitCode::SUCCESS);
     }
     match command {
+        Command::Render(args) if args.estimate => {
+            let estimate = job::estimate(&args.into_job()?, &terminal(Signals::default()))?;
+            writeln!(io::stdout(), "{}", cli::table::estimate(&estimate))?;
+            Ok(ExitCode::SUCCESS)
+        }
         Command::Render(args) => {
             let job = args.into_job()?;
             let signals = Signals::watch().context("signals cannot be watched")?;
@@ -56,8 +61,12 @@ fn run() -> anyhow::Result<ExitCode> {
                 0 => String::new(),
                 films => format!(", {}", count(films as u64, "film")),
             };
+            let kept = match summary.kept {
+                0 => String::new(),
+                kept => format!(" ({kept} of them were there)"),
+            };
             terminal.say(&format!(
-                "{stopped}{}{} in {}; games: {} whole, {} in part, {} skipped",
+                "{stopped}{}{kept}{} in {}; games: {} whole, {} in part, {} skipped",
                 count(summary.frames, "frame"),
                 films,
                 job.out.display(),

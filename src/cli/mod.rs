@@ -27,7 +27,7 @@ use marks::DrawnArgs;
 use picture::PictureArgs;
 use print::PrintArgs;
 use subject::SubjectArgs;
-use values::{plies, runs, threads};
+use values::{every, plies, runs, threads};
 
 /// Reads chess games (PGN), replays them and ray-traces them into pictures and films.
 #[derive(Parser)]
@@ -184,6 +184,24 @@ pub struct RenderArgs {
     /// Last position, likewise, or end
     #[arg(long, value_name = "MOVE", default_value = "end")]
     to: Moment,
+    /// This position alone, likewise
+    #[arg(long, value_name = "MOVE", conflicts_with_all = ["from", "to"])]
+    at: Option<Moment>,
+    /// Of the positions every Nth from the first on, and the last one
+    #[arg(
+        long,
+        value_name = "N",
+        default_value = "1",
+        value_parser = every,
+        conflicts_with_all = ["timed", "title", "result", "frames", "variations"]
+    )]
+    every: usize,
+    /// Give up rather than replace pictures of other settings or another game
+    #[arg(long)]
+    no_replace: bool,
+    /// Say how many games and frames there are, and about how many bytes and how long they will take; render nothing
+    #[arg(long)]
+    pub estimate: bool,
     /// Render variations too, each in a folder of its own within its game's, named by its first move
     #[arg(long, conflicts_with = "frames")]
     variations: bool,
@@ -283,11 +301,13 @@ impl RenderArgs {
             inputs: self.inputs,
             out: self.out,
             selection: self.select,
-            from: self.from,
-            to: self.to,
+            from: self.at.unwrap_or(self.from),
+            to: self.at.unwrap_or(self.to),
             variations: self.variations,
             showing: self.film.showing(),
             frames: self.film.frames,
+            every: self.every,
+            refuses_old: self.no_replace,
             picture,
         })
     }

@@ -1,6 +1,6 @@
 //! Measurements as lines for people.
 
-use lightsquare::job::{GameMeasurement, Measurement};
+use lightsquare::job::{Estimate, GameMeasurement, Measurement, in_bytes};
 
 /// Of the thesis's settings.
 pub fn pictures(measurements: &[Measurement]) -> String {
@@ -37,4 +37,19 @@ pub fn games(measurements: &[GameMeasurement]) -> String {
     }
     lines
         + "* of every n-th frame, ten at most; reuse begins with a whole frame, so few plies say less of it\n"
+}
+
+/// What a job would take.
+pub fn estimate(estimate: &Estimate) -> String {
+    let Estimate { games, frames, bytes, seconds, threads } = estimate;
+    let time = match *seconds {
+        seconds if seconds < 100.0 => format!("{seconds:.0} s"),
+        seconds if seconds < 6000.0 => format!("{:.0} min", seconds / 60.0),
+        seconds if seconds < 360_000.0 => format!("{:.0} h", seconds / 3600.0),
+        seconds => format!("{:.0} days", seconds / 86_400.0),
+    };
+    format!(
+        "games: {games}; frames: {frames}; about {} of pictures, and {time} with {threads} threads",
+        in_bytes(*bytes)
+    )
 }

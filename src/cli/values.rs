@@ -58,6 +58,10 @@ pub fn plies(text: &str) -> Result<usize, String> {
     whole_number(text, 0, 1000)
 }
 
+pub fn every(text: &str) -> Result<usize, String> {
+    whole_number(text, 1, 100_000)
+}
+
 pub fn dpi(text: &str) -> Result<u32, String> {
     whole_number(text, 10, 4800).map(|dpi| dpi as u32)
 }

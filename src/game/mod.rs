@@ -27,7 +27,7 @@ pub use notes::{Eval, Notes};
 pub use outcome::Ending;
 pub use scan::{ScannedGame, Scanner};
 pub use select::{Absent, Moment, ParseMomentError, ParseSelectionError, Selection};
-pub use source::{Source, SourceError};
+pub use source::{Games, Source, SourceError};
 pub use start::fen_position;
 pub use variation::Branch;
 pub use word::{printable, shortened};

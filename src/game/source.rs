@@ -9,7 +9,7 @@ use super::{Game, Problem, Scanner, printable};
 /// A file of games that is open, or the standard input.
 pub struct Source {
     name: String,
-    reader: Box<dyn BufRead>,
+    reader: Box<dyn BufRead + Send>,
 }
 
 /// Why a file gives no games. Each message begins with the file's name.
@@ -44,13 +44,20 @@ impl Source {
     /// # Errors
     /// When there is no such file, or it is a folder, empty, or no text that can be read.
     pub fn open(path: &Path) -> Result<Source, SourceError> {
-        let name = printable(&path.to_string_lossy());
+        Source::open_as(path, printable(&path.to_string_lossy()))
+    }
+
+    /// The same, under a `name` of its own in messages.
+    ///
+    /// # Errors
+    /// As [`Source::open`].
+    pub fn open_as(path: &Path, name: String) -> Result<Source, SourceError> {
         let failed = |error: io::Error| match error.kind() {
             io::ErrorKind::NotFound => SourceError::Missing { name: name.clone() },
             io::ErrorKind::IsADirectory => SourceError::Folder { name: name.clone() },
             _ => SourceError::Io { name: name.clone(), error },
         };
-        let mut reader: Box<dyn BufRead> = if path == Path::new("-") {
+        let mut reader: Box<dyn BufRead + Send> = if path == Path::new("-") {
             Box::new(BufReader::with_capacity(BUFFER, io::stdin()))
         } else {
             if path.is_dir() {
@@ -85,7 +92,7 @@ impl Source {
 /// The games of a [`Source`], read one by one.
 pub struct Games {
     name: String,
-    scanner: Scanner<Box<dyn BufRead>>,
+    scanner: Scanner<Box<dyn BufRead + Send>>,
     number: usize,
     strays: Vec<Problem>,
     has_ended: bool,

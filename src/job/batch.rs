@@ -4,18 +4,23 @@ use std::ffi::OsStr;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use super::input::Input;
 use super::render::RenderJob;
-use super::{JobError, MAX_FRAMES, Progress, say_missing, say_problems, say_variations, shown};
-use crate::game::{Absent, Game, Problem, Source, Variation, printable};
+use super::{JobError, MAX_FRAMES, Progress, say_missing, say_problems, say_variations};
+use crate::game::{Absent, Game, Games, Problem, Variation, printable};
 use crate::notation::Color;
 use crate::output::slug;
 use crate::timeline::{Script, Timeline};
 
-/// A file of games.
+/// A file of games, and what of it is to be rendered. It is read twice: to see what there is, before the first picture, and
+/// again game by game, so that it may be of any length.
 pub struct Batch {
-    pub file: String,
+    pub input: Input,
+    /// Where its pictures go, within the folder of all output.
     pub folder: PathBuf,
-    pub entries: Vec<Entry>,
+    /// What was found in it.
+    pub games: usize,
+    pub frames: u64,
 }
 
 /// A game, and what of it is rendered.
@@ -31,7 +36,29 @@ pub struct Entry {
 pub struct Part {
     pub first: usize,
     pub last: usize,
+    /// They are counted as in the whole.
     pub frames: Range<usize>,
+    /// Of these frames every so manyth from the first on, and the last one.
+    pub every: usize,
+}
+
+impl Part {
+    /// The frames that are shown, each with the number in its name.
+    pub fn frames(&self) -> impl Iterator<Item = (usize, usize)> + Clone + '_ {
+        let Range { start, end } = self.frames;
+        let wanted = self
+            .frames
+            .clone()
+            .filter(move |index| (index - start).is_multiple_of(self.every) || index + 1 == end);
+        wanted.map(move |index| (index, start + (index - start).div_ceil(self.every)))
+    }
+
+    pub fn count(&self) -> usize {
+        match self.frames.len() {
+            0 => 0,
+            frames => (frames - 1).div_ceil(self.every) + 1,
+        }
+    }
 }
 
 /// A variation that is shown.
@@ -60,65 +87,135 @@ impl Entry {
     /// The frames of the game and of its variations.
     pub fn frames(&self) -> u64 {
         let variations = self.variations.iter().map(|variation| &variation.part);
-        self.part.iter().chain(variations).map(|part| part.frames.len() as u64).sum()
+        self.part.iter().chain(variations).map(|part| part.count() as u64).sum()
     }
 }
 
-/// One folder name a file: its own without the ending, with a number where that is taken.
+/// One folder name a file: its own without the endings of games and of what is compressed, with a number where that is
+/// taken. Names that some file systems take for the same are the same here.
 pub fn folder_names(inputs: &[PathBuf]) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     for input in inputs {
-        let stem = input.file_stem().filter(|_| input != Path::new("-"));
-        let stem = stem.map_or("stdin".into(), OsStr::to_string_lossy);
-        // A name that leads elsewhere is none.
-        let stem = match stem.as_ref() {
-            "." | ".." => "games".to_owned(),
+        let name = input.file_name().filter(|_| input != Path::new("-"));
+        let name = name.map_or("stdin".into(), OsStr::to_string_lossy);
+        let stem = match without_endings(&name) {
+            // A name that leads elsewhere, or hides, is none.
+            "" | "." | ".." => "games".to_owned(),
+            name if name.starts_with('.') => format!("games{}", printable(name)),
             name => printable(name),
         };
+        let is_free = |name: &String| !names.iter().any(|known| is_same(known, name));
         let numbered = (2..).map(|number| format!("{stem}-{number}"));
-        let free = std::iter::once(stem.clone()).chain(numbered).find(|name| !names.contains(name));
+        let free = std::iter::once(stem.clone()).chain(numbered).find(is_free);
         names.push(free.unwrap_or(stem));
     }
     names
 }
 
-/// Reads what `job` wants of `input`, for pictures in `folder`.
-///
-/// # Errors
-/// Input that cannot be read, a selection without games, frames or a camera's path that a game does not have.
-pub fn read_batch(
-    job: &RenderJob,
-    script: &Script,
-    input: &Path,
-    folder: PathBuf,
-    progress: &dyn Progress,
-) -> Result<Batch, JobError> {
-    let file = shown(input);
-    let mut entries = Vec::new();
-    let mut seen = 0;
-    for game in Source::open(input)?.games() {
-        let mut game = game?;
-        seen += 1;
-        if job.selection.as_ref().is_some_and(|selection| !selection.contains(game.number)) {
-            continue;
-        }
-        let span = span(job, &mut game);
-        say_problems(&file, &game, progress);
-        let part = span.map(|span| part(job, script, &game, span, &file)).transpose()?;
-        let variations = match &part {
-            Some(part) if job.variations => {
+fn is_same(a: &str, b: &str) -> bool {
+    a.to_lowercase() == b.to_lowercase()
+}
+
+/// `games.pgn.zst` is `games`; of another name the last ending goes.
+fn without_endings(name: &str) -> &str {
+    let name = ["zst", "gz", "bz2"]
+        .iter()
+        .find_map(|ending| name.strip_suffix(ending)?.strip_suffix('.'))
+        .unwrap_or(name);
+    match name.rsplit_once('.') {
+        Some((stem, _)) if !stem.is_empty() => stem,
+        _ => name,
+    }
+}
+
+impl Batch {
+    /// Sees what `job` wants of `input`, for pictures in `folder`, and tells what could not be read.
+    ///
+    /// # Errors
+    /// Input that cannot be read, a selection without games, frames or a camera's path that a game does not have.
+    pub fn survey(
+        job: &RenderJob,
+        script: &Script,
+        input: Input,
+        folder: PathBuf,
+        progress: &dyn Progress,
+    ) -> Result<Batch, JobError> {
+        let mut batch = Batch { input, folder, games: 0, frames: 0 };
+        let file = batch.input.name.clone();
+        let mut entries = batch.entries(job, script)?;
+        let (mut games, mut frames) = (0, 0);
+        for entry in &mut entries {
+            let entry = entry?;
+            let Entry { game, part, .. } = &entry;
+            say_problems(&file, game, progress);
+            if part.is_some() && job.variations {
                 say_variations(&game.variations, &file, game.number, progress);
-                variations(job, script, &game, part, &file)?
             }
+            games += 1;
+            frames += entry.frames();
+        }
+        let seen = entries.seen;
+        if games == 0 {
+            return Err(JobError::NothingSelected { file, games: seen });
+        }
+        say_missing(&file, job.selection.as_ref(), seen, progress);
+        (batch.games, batch.frames) = (games, frames);
+        Ok(batch)
+    }
+
+    /// The games of the file that are wanted, one after the other.
+    ///
+    /// # Errors
+    /// Input that cannot be read.
+    pub fn entries<'a>(
+        &'a self,
+        job: &'a RenderJob,
+        script: &'a Script,
+    ) -> Result<Entries<'a>, JobError> {
+        let games = self.input.open()?.games();
+        Ok(Entries { job, script, file: &self.input.name, games, seen: 0 })
+    }
+}
+
+/// Games that are wanted, each cut to what is wanted of it.
+pub struct Entries<'a> {
+    job: &'a RenderJob,
+    script: &'a Script,
+    file: &'a str,
+    games: Games,
+    /// The games of the file so far, wanted or not.
+    seen: usize,
+}
+
+impl Iterator for Entries<'_> {
+    type Item = Result<Entry, JobError>;
+
+    fn next(&mut self) -> Option<Result<Entry, JobError>> {
+        loop {
+            let game = match self.games.next()? {
+                Ok(game) => game,
+                Err(error) => return Some(Err(error.into())),
+            };
+            self.seen += 1;
+            let selection = self.job.selection.as_ref();
+            if selection.is_none_or(|selection| selection.contains(game.number)) {
+                return Some(self.entry(game));
+            }
+        }
+    }
+}
+
+impl Entries<'_> {
+    fn entry(&self, mut game: Game) -> Result<Entry, JobError> {
+        let Entries { job, script, file, .. } = self;
+        let part = span(job, &mut game).map(|span| part(job, script, &game, span, file));
+        let part = part.transpose()?;
+        let variations = match &part {
+            Some(part) if job.variations => variations(job, script, &game, part, file)?,
             _ => Vec::new(),
         };
-        entries.push(Entry { game, part, variations });
+        Ok(Entry { game, part, variations })
     }
-    if entries.is_empty() {
-        return Err(JobError::NothingSelected { file, games: seen });
-    }
-    say_missing(&file, job.selection.as_ref(), seen, progress);
-    Ok(Batch { file, folder, entries })
 }
 
 /// The part of a game between two positions, with the frames that are wanted of it.
@@ -145,7 +242,7 @@ fn part(
             return Err(JobError::NoSuchFrames { file, game: number, last: frames - 1, wanted });
         }
     };
-    Ok(Part { first, last, frames })
+    Ok(Part { first, last, frames, every: job.every })
 }
 
 /// The variations that begin within the part of a game that is shown, each from the position before its

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use rayon::Scope;
+use rayon::{Scope, ThreadPool};
 
 use super::Progress;
 use crate::output::{OutputError, PictureFormat, RepeatedPicture};
@@ -20,6 +20,7 @@ pub struct Sheet {
 /// Where sheets wait until a thread of the pool has nothing to trace.
 pub struct Desk<'a> {
     progress: &'a dyn Progress,
+    pool: &'a ThreadPool,
     format: PictureFormat,
     /// How many sheets may wait.
     room: usize,
@@ -33,11 +34,16 @@ pub struct Desk<'a> {
 const SPARE: usize = 2;
 
 impl<'a> Desk<'a> {
-    /// For sheets that are written in one format by the current pool. Where one thread does all, none waits.
-    pub fn new(progress: &'a dyn Progress, format: PictureFormat) -> Desk<'a> {
-        let threads = rayon::current_num_threads();
+    /// For sheets that are written in one format by the threads of `pool`. Where there is but one, none waits.
+    pub fn new(
+        progress: &'a dyn Progress,
+        pool: &'a ThreadPool,
+        format: PictureFormat,
+    ) -> Desk<'a> {
+        let threads = pool.current_num_threads();
         Desk {
             progress,
+            pool,
             format,
             room: if threads > 1 { threads + SPARE } else { 0 },
             waiting: AtomicUsize::new(0),
@@ -46,14 +52,14 @@ impl<'a> Desk<'a> {
         }
     }
 
-    /// Has a sheet written by the end of `scope`; at once, by the caller, if too many wait. Once one could not be
-    /// written, no more are taken.
+    /// Has a sheet written by the end of `scope`, which is one of the pool; at once if too many wait. Once one could not
+    /// be written, no more are taken.
     pub fn take<'scope>(&'scope self, sheet: Sheet, scope: &Scope<'scope>) {
         if self.has_failed() {
             return;
         }
         if self.waiting.load(Ordering::Relaxed) >= self.room {
-            return self.write(&sheet);
+            return self.pool.install(|| self.write(&sheet));
         }
         self.waiting.fetch_add(1, Ordering::Relaxed);
         scope.spawn(move |_| {
@@ -120,16 +126,14 @@ mod tests {
     fn written(threads: usize, paths: &[PathBuf]) -> (u64, Result<(), OutputError>, u64) {
         let progress = Counter(AtomicU64::new(0));
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        let (count, outcome) = pool.install(|| {
-            let desk = Desk::new(&progress, PictureFormat::Png);
-            rayon::in_place_scope(|scope| {
-                for path in paths {
-                    desk.take(sheet(path.clone()), scope);
-                    assert!(desk.waiting.load(Ordering::Relaxed) <= desk.room);
-                }
-            });
-            desk.close()
+        let desk = Desk::new(&progress, &pool, PictureFormat::Png);
+        pool.in_place_scope(|scope| {
+            for path in paths {
+                desk.take(sheet(path.clone()), scope);
+                assert!(desk.waiting.load(Ordering::Relaxed) <= desk.room);
+            }
         });
+        let (count, outcome) = desk.close();
         (count, outcome, progress.0.into_inner())
     }
 

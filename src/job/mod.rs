@@ -8,12 +8,18 @@ mod bench;
 mod captions;
 mod desk;
 mod diagram;
+mod estimate;
 mod export;
+mod fingerprint;
+mod game;
+mod input;
 mod inspect;
 mod reels;
 mod render;
 mod report;
+mod room;
 mod script;
+mod shared;
 mod shots;
 mod studio;
 mod subject;
@@ -21,6 +27,7 @@ mod wording;
 
 pub use bench::{BenchJob, GameMeasurement, Measurement, Measurements, bench};
 pub use diagram::{DiagramJob, DiagramSummary, Drawn, diagram};
+pub use estimate::{Estimate, estimate};
 pub use export::{ExportJob, export};
 pub use inspect::{InspectJob, Listing, inspect};
 pub use reels::Films;
@@ -35,7 +42,7 @@ use std::path::{Path, PathBuf};
 use crate::assets::AssetError;
 use crate::caption::CaptionError;
 use crate::game::{Game, Moment, Selection, SourceError, Variation, printable};
-use crate::output::OutputError;
+use crate::output::{LockError, OutputError};
 use crate::scene::StageError;
 use crate::timeline::PathError;
 
@@ -67,6 +74,18 @@ pub enum JobError {
     NoSuchFrames { file: String, game: usize, last: usize, wanted: String },
     #[error("{file}: game {game}: {error}")]
     Path { file: String, game: usize, error: PathError },
+    #[error(transparent)]
+    Lock(#[from] LockError),
+    #[error(
+        "{}: is of another run, with other settings or another game, and nothing is to be replaced; expected another --out",
+        path.display()
+    )]
+    WouldReplace { path: PathBuf },
+    #[error(
+        "{}: {frames} frames of {width}x{height} take {} at least, and there is room for {}",
+        folder.display(), in_bytes(*needed as f64), in_bytes(*free as f64)
+    )]
+    NoRoom { folder: PathBuf, frames: u64, width: u32, height: u32, needed: u64, free: u64 },
     #[error(transparent)]
     Assets(#[from] AssetError),
     #[error(transparent)]
@@ -105,6 +124,15 @@ pub trait Progress: Sync {
     fn detail(&self, text: &str);
     /// Whether to stop at the next game or frame.
     fn is_cancelled(&self) -> bool;
+}
+
+/// A number of bytes, in the unit that suits it.
+pub fn in_bytes(number: f64) -> String {
+    let units = [("TB", 1e12), ("GB", 1e9), ("MB", 1e6), ("kB", 1e3)];
+    match units.iter().find(|(_, unit)| number >= *unit) {
+        Some((name, unit)) => format!("{:.1} {name}", number / unit),
+        None => format!("{number} bytes"),
+    }
 }
 
 /// A file's name as messages show it, `-` for the standard input.

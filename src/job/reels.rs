@@ -79,12 +79,14 @@ impl<'a> Reels<'a> {
         Ok(reels)
     }
 
-    /// Hands the picture of a frame on if a shot begins with it; waits while too many do. Whether all films still take
-    /// pictures, and nobody wants to stop.
-    pub fn add(&mut self, frame: usize, picture: &Arc<RepeatedPicture>) -> bool {
-        if self.begins.next_if_eq(&frame).is_none() {
-            return true;
-        }
+    /// Whether films want the picture of a frame: if a shot begins with it. Frames are asked for in their order.
+    pub fn wants(&mut self, frame: usize) -> bool {
+        self.begins.next_if_eq(&frame).is_some()
+    }
+
+    /// Hands a picture on that is wanted; waits while too many do. Whether all films still take pictures, and nobody
+    /// wants to stop.
+    pub fn add(&mut self, picture: &Arc<RepeatedPicture>) -> bool {
         self.reels.iter().all(|reel| {
             let mut next = picture.clone();
             loop {

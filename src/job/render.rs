@@ -1,25 +1,32 @@
 //! Whole games, as numbered pictures and films in folders.
 
 use std::fs;
+use std::iter::Enumerate;
 use std::ops::RangeInclusive;
+use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
+use std::thread;
 
-use super::batch::{Batch, Entry, Part, folder_names, game_folder, read_batch};
-use super::captions::GameCaptions;
-use super::desk::{Desk, Sheet};
-use super::reels::{Films, Reels};
-use super::report::{FrameRow, Manifest, ReportLine, Status, VariationLine, tags, texts};
-use super::shots::Shots;
+use rayon::ThreadPool;
+
+use super::batch::{Batch, Entries, Entry, VariationPart, folder_names, game_folder};
+use super::fingerprint::Fingerprints;
+use super::game::{Line, Rendered};
+use super::input::Input;
+use super::reels::Films;
+use super::report::{Report, ReportLine, Status, VariationLine};
+use super::room::check_room;
+use super::shared::Shared;
 use super::studio::{PictureSettings, Studio};
 use super::{JobError, Progress, Showing};
 use crate::config::Config;
-use crate::game::{Game, Moment, Selection, shortened};
-use crate::notation::Color;
+use crate::game::{Moment, Selection};
 use crate::output::{
-    FilmFormat, FrameNames, PictureFormat, film_name, manifest_name, prepare_folder, remove_frames,
-    write_json, write_json_lines,
+    FilmFormat, FolderLock, FrameNames, film_name, prepare_inside, remove_temporaries,
 };
-use crate::timeline::{Bodies, Script, Timeline};
+use crate::timeline::{Bodies, Script};
 use crate::tracer::RayCounts;
 
 /// Which games to render, how, and where to.
@@ -39,6 +46,10 @@ pub struct RenderJob {
     pub showing: Showing,
     /// Which frames of each game, counted as in the whole; all when `None`.
     pub frames: Option<RangeInclusive<usize>>,
+    /// Every so manyth frame is rendered, and the last one; at least 1.
+    pub every: usize,
+    /// Whether to give up rather than replace pictures of other settings or games.
+    pub refuses_old: bool,
     /// How frames are named as pictures; there are none when `None`.
     pub names: Option<FrameNames>,
     pub films: Films,
@@ -51,49 +62,109 @@ pub struct Summary {
     pub rendered: usize,
     pub partial: usize,
     pub skipped: usize,
-    /// Pictures that were written, or went into films.
+    /// Pictures that are there, or went into films.
     pub frames: u64,
-    /// Films that were written.
+    /// Those of them that an earlier run has left.
+    pub kept: u64,
+    /// Films that are there.
     pub films: usize,
     pub rays: RayCounts,
     /// Whether the job was told to stop.
     pub cancelled: bool,
 }
 
+impl Summary {
+    /// Adds what was done by another, but its rays.
+    fn add(&mut self, other: Summary) {
+        self.rendered += other.rendered;
+        self.partial += other.partial;
+        self.skipped += other.skipped;
+        self.frames += other.frames;
+        self.kept += other.kept;
+        self.films += other.films;
+        self.cancelled |= other.cancelled;
+    }
+}
+
 /// Renders games into pictures; each gets a manifest, each file a report.
 ///
-/// All input is read before the first picture, and nothing is written if any of it cannot be read
-/// at all. Games that can be played only in part are rendered in part. Numbered pictures of an
-/// earlier run in a game's folder are removed, and its variations; where only some frames are wanted, only
-/// those are.
+/// All input is looked through before the first picture, and nothing is written if any of it cannot be read
+/// at all. Games that can be played only in part are rendered in part. What an earlier run has finished stays, as far as it
+/// would come out the same; other numbered pictures in a game's folder are removed, and its variations; where only some
+/// frames are wanted, only those are.
 ///
 /// # Errors
-/// Input that cannot be read, output that cannot be written, or a selection without games.
+/// Input that cannot be read, output that cannot be written, a folder that another run writes to, or a selection without
+/// games.
 pub fn render(job: &RenderJob, progress: &dyn Progress) -> Result<Summary, JobError> {
     let config = &job.picture.config;
-    // How many frames there are does not depend on the room that pieces take.
-    let script = job.showing.script(config, Bodies::default());
-    let mut batches = Vec::new();
-    for (input, name) in job.inputs.iter().zip(folder_names(&job.inputs)) {
-        batches.push(read_batch(job, &script, input, job.out.join(name), progress)?);
-    }
+    let batches = survey(job, progress)?;
     say_films(job, progress);
-    let pool = job.picture.pool()?;
-    let studio = Studio::new(&job.picture, job.showing.reach(config))?;
-    let script = job.showing.script(config, studio.bodies().clone());
-    let mut run = Run { job, script, progress, studio, summary: Summary::default() };
+    let reach = job.showing.reach(config);
+    let mut studios = vec![Studio::new(&job.picture, reach)?];
+    let bodies = studios[0].bodies().clone();
     for batch in &batches {
-        keep_out(job, &batch.folder)?;
-        prepare_folder(&batch.folder)?;
+        keep_out(job, &job.out.join(&batch.folder))?;
     }
-    progress.begin(batches.iter().flat_map(|batch| &batch.entries).map(Entry::frames).sum());
+    let frames = batches.iter().map(|batch| batch.frames).sum();
+    check_room(job, frames)?;
+    let mut locks = Vec::new();
     for batch in &batches {
-        if !run.summary.cancelled {
-            pool.install(|| run.batch(batch))?;
+        let folder = prepare_inside(&job.out, &batch.folder)?;
+        locks.push(FolderLock::take(&folder)?);
+        remove_temporaries(&folder)?;
+    }
+    let pool = job.picture.pool()?;
+    let fingerprints = Fingerprints::new(&job.picture, reach);
+    let shared = Shared::new(fingerprints.clone());
+    let most = batches.iter().map(|batch| batch.games).max().unwrap_or(1);
+    for _ in 1..side_by_side(job, &pool).min(most) {
+        studios.push(Studio::new(&job.picture, reach)?);
+    }
+    if batches.iter().map(|batch| batch.games).sum::<usize>() > 1 {
+        studios = studios.into_iter().map(|studio| studio.sharing(&shared)).collect();
+    }
+    let run = Run {
+        job,
+        script: job.showing.script(config, bodies),
+        progress,
+        pool: &pool,
+        fingerprints,
+        has_failed: AtomicBool::new(false),
+    };
+    progress.begin(frames);
+    let mut summary = Summary::default();
+    for batch in &batches {
+        if !summary.cancelled {
+            run.batch(batch, &mut studios, &mut summary)?;
         }
     }
-    run.summary.rays = run.studio.rays();
-    Ok(run.summary)
+    summary.rays = studios.iter().fold(RayCounts::default(), |sum, studio| sum + studio.rays());
+    Ok(summary)
+}
+
+/// Looks through all input.
+pub fn survey(job: &RenderJob, progress: &dyn Progress) -> Result<Vec<Batch>, JobError> {
+    // How many frames there are does not depend on the room that pieces take.
+    let script = job.showing.script(&job.picture.config, Bodies::default());
+    let inputs = job.inputs.iter().zip(folder_names(&job.inputs));
+    let batches = inputs.map(|(path, folder)| {
+        Batch::survey(job, &script, Input::new(path)?, folder.into(), progress)
+    });
+    batches.collect()
+}
+
+/// How many bytes of memory a pixel takes while its game is rendered.
+const BYTES_A_PIXEL: usize = 300;
+
+/// Memory for games that are rendered side by side.
+const MEMORY: usize = 1 << 30;
+
+/// How many games are rendered at once: as many as there are threads, and as have room.
+fn side_by_side(job: &RenderJob, pool: &ThreadPool) -> usize {
+    let Config { width, height, .. } = job.picture.config;
+    let room = MEMORY / (BYTES_A_PIXEL * (width as usize * height as usize).max(1));
+    pool.current_num_threads().min(room).max(1)
 }
 
 /// Tells of films that are smaller than their pictures, and who makes them.
@@ -132,154 +203,134 @@ fn keep_out(job: &RenderJob, folder: &Path) -> Result<(), JobError> {
 }
 
 /// A job under way.
-struct Run<'a> {
-    job: &'a RenderJob,
-    script: Script,
-    progress: &'a dyn Progress,
-    studio: Studio<'a>,
-    summary: Summary,
+pub struct Run<'a> {
+    pub job: &'a RenderJob,
+    pub script: Script,
+    pub progress: &'a dyn Progress,
+    pub pool: &'a ThreadPool,
+    pub fingerprints: Fingerprints<'a>,
+    /// Whether a game could not be rendered, so that others are not begun or gone on with.
+    has_failed: AtomicBool,
+}
+
+/// What those who render the games of one file share.
+struct Shift<'a> {
+    batch: &'a Batch,
+    /// The games that are to come, with their places.
+    queue: Mutex<Enumerate<Entries<'a>>>,
+    report: Mutex<Report>,
 }
 
 impl Run<'_> {
-    /// Renders the games of a file; the report tells of all that were begun, even where one fails.
-    fn batch(&mut self, batch: &Batch) -> Result<(), JobError> {
-        let mut report = Vec::new();
+    /// Whether no more is to be rendered.
+    pub fn is_over(&self) -> bool {
+        self.progress.is_cancelled() || self.has_failed.load(Ordering::Relaxed)
+    }
+
+    /// Renders the games of a file, as many at once as there are `studios`; the report tells of all that were begun, even
+    /// where one fails.
+    fn batch(
+        &self,
+        batch: &Batch,
+        studios: &mut [Studio],
+        summary: &mut Summary,
+    ) -> Result<(), JobError> {
+        let shift = Shift {
+            batch,
+            queue: Mutex::new(batch.entries(self.job, &self.script)?.enumerate()),
+            report: Mutex::new(Report::begin(&self.job.out.join(&batch.folder))?),
+        };
         let mut outcome = Ok(());
-        for entry in &batch.entries {
-            if self.summary.cancelled || outcome.is_err() {
-                break;
-            }
-            let Entry { game, part, variations } = entry;
-            let Some(part) = part else {
-                self.summary.skipped += 1;
-                report.push(ReportLine::new(game, Status::Skipped, 0, None));
-                continue;
-            };
-            let name = game_folder(game);
-            let folder = batch.folder.join(&name);
-            let before = self.summary.frames;
-            outcome = self.game(batch, &folder, game, part, None);
-            let mut is_whole = game.is_whole();
-            let mut lines = Vec::new();
-            for variation in variations {
-                if self.summary.cancelled || outcome.is_err() {
-                    break;
+        thread::scope(|scope| {
+            let workers: Vec<_> = studios
+                .iter_mut()
+                .map(|studio| scope.spawn(|| self.work(&shift, studio)))
+                .collect();
+            for worker in workers {
+                let (part, ended) = worker.join().unwrap_or_else(|panic| resume_unwind(panic));
+                summary.add(part);
+                if outcome.is_ok() {
+                    outcome = ended;
                 }
-                let Some(line) = game.with_variation(&variation.path) else { continue };
-                let before = self.summary.frames;
-                let name = Some(variation.folder.as_path());
-                outcome = self.game(batch, &folder, &line, &variation.part, name);
-                is_whole &= line.is_whole();
-                let frames = (self.summary.frames - before) as usize;
-                lines.push(VariationLine::new(&line, &variation.folder, frames));
             }
-            if self.job.variations {
-                let unplayable = entry.unplayable();
-                is_whole &= unplayable.is_empty();
-                lines.extend(unplayable.into_iter().map(VariationLine::unplayable));
-            }
-            let status = match outcome {
-                Ok(()) if self.summary.cancelled => Status::Stopped,
-                Ok(()) if is_whole => Status::Rendered,
-                Ok(()) => Status::Partial,
-                Err(_) => Status::Stopped,
-            };
-            match status {
-                Status::Rendered => self.summary.rendered += 1,
-                _ => self.summary.partial += 1,
-            }
-            let frames = (self.summary.frames - before) as usize;
-            report.push(ReportLine::new(game, status, frames, Some(name)).with(lines));
-        }
-        let written = write_json_lines(&batch.folder.join("report.jsonl"), &report);
+        });
+        let report = shift.report.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let written = report.finish();
         outcome?;
         Ok(written?)
     }
 
-    /// Renders a part of a game and writes its manifest.
-    fn game(
-        &mut self,
-        batch: &Batch,
-        folder: &Path,
-        game: &Game,
-        part: &Part,
-        variation: Option<&Path>,
-    ) -> Result<(), JobError> {
-        let folder = &variation.map_or(folder.to_owned(), |name| folder.join(name));
-        prepare_folder(folder)?;
-        let (wanted, names) = (self.job.frames.as_ref(), self.job.names.as_ref());
-        remove_frames(folder, names, wanted)?;
-        let players = [Color::White, Color::Black].map(|color| shortened(game.player(color), 60));
-        self.progress.game(&players.join(" – "));
-        let timeline =
-            Timeline::new(game, part.first, part.last, &self.script).map_err(|error| {
-                JobError::Path { file: batch.file.clone(), game: game.number, error }
-            })?;
-        let captions = GameCaptions::new(game, self.job.picture.config.captions);
-        let (films, fps) = (&self.job.films, self.script.film.fps);
-        let shots = if films.formats.is_empty() {
-            Shots::default()
-        } else {
-            Shots::of(&self.job.picture, &timeline, &captions, part, fps)
-        };
-        let film = |format| folder.join(film_name(format, wanted));
-        let mut reels = Reels::begin(films, shots, self.progress, film)?;
-        let mut rows = Vec::new();
-        let format = names.map_or(PictureFormat::Png, FrameNames::format);
-        let desk = Desk::new(self.progress, format);
-        let mut filmed = 0;
-        rayon::in_place_scope(|scope| {
-            for index in part.frames.clone() {
-                self.summary.cancelled = self.progress.is_cancelled();
-                if self.summary.cancelled || desk.has_failed() {
-                    break;
-                }
-                let frame = timeline.frame(index);
-                let coming = (index + 1..part.frames.end).map(|index| timeline.frame(index));
-                let content = captions.of(&frame);
-                let picture = self.studio.picture(&frame, content.as_ref(), coming);
-                if !reels.add(index, &picture) {
-                    break;
-                }
-                let name = names.map(|names| names.name(index));
-                match &name {
-                    Some(name) => {
-                        let (path, texts) = (folder.join(name), texts(game, &frame));
-                        desk.take(Sheet { path, picture, texts }, scope);
-                    }
-                    None => {
-                        filmed += 1;
-                        self.progress.frame_done();
-                    }
-                }
-                rows.push(FrameRow::new(name, game, &frame));
+    /// Renders game after game until there is none left.
+    fn work(&self, shift: &Shift, studio: &mut Studio) -> (Summary, Result<(), JobError>) {
+        let mut summary = Summary::default();
+        while !self.is_over() {
+            let next = shift.queue.lock().unwrap_or_else(PoisonError::into_inner).next();
+            let Some((place, entry)) = next else { break };
+            let outcome = entry.and_then(|entry| {
+                let (line, outcome) = self.entry(shift.batch, &entry, studio, &mut summary);
+                let mut report = shift.report.lock().unwrap_or_else(PoisonError::into_inner);
+                report.add(place, line).map_err(JobError::from).and(outcome)
+            });
+            if outcome.is_err() {
+                self.has_failed.store(true, Ordering::Relaxed);
+                return (summary, outcome);
             }
-        });
-        let (written, outcome) = desk.close();
-        self.summary.frames += written + filmed;
-        let (films, filming) = reels.end(self.summary.cancelled || outcome.is_err());
-        self.summary.films += films.len();
-        // A film that was waited for may have been told to stop.
-        let is_short = films.len() < self.job.films.formats.len();
-        self.summary.cancelled |= is_short && self.progress.is_cancelled();
-        outcome?;
-        let manifest = Manifest {
-            file: &batch.file,
-            game: game.number,
-            line: game.line,
-            tags: tags(game),
-            unread_tags: &game.unread_tags,
-            variation: variation.map(|name| name.to_string_lossy().into_owned()),
-            result: &game.result,
-            problems: &game.problems,
-            settings: self.studio.record(),
-            film: self.job.showing.animate.then_some(self.job.showing.film),
-            orbit: self.job.showing.orbit,
-            orbits_each_move: self.job.showing.orbits_each_move,
-            films: films.into_iter().map(|format| film_name(format, wanted)).collect(),
-            frames: rows,
+        }
+        summary.cancelled |= self.progress.is_cancelled();
+        (summary, Ok(()))
+    }
+
+    /// Renders a game and its variations: its line of the report, and what went wrong if anything did.
+    fn entry(
+        &self,
+        batch: &Batch,
+        entry: &Entry,
+        studio: &mut Studio,
+        summary: &mut Summary,
+    ) -> (ReportLine, Result<(), JobError>) {
+        let Entry { game, part, variations } = entry;
+        let Some(part) = part else {
+            summary.skipped += 1;
+            return (ReportLine::new(game, Status::Skipped, 0, None), Ok(()));
         };
-        write_json(&folder.join(manifest_name(wanted)), &manifest)?;
-        Ok(filming?)
+        let name = game_folder(game);
+        let folder = &batch.folder.join(&name);
+        let file = &batch.input.name;
+        let mut all = Rendered::default();
+        let line = Line { file, game, part, folder, variation: None, variations };
+        let mut outcome = line.render(self, studio, &mut all);
+        let mut is_whole = game.is_whole();
+        let mut lines = Vec::new();
+        for VariationPart { path, folder: name, part } in variations {
+            if all.is_cancelled || outcome.is_err() {
+                break;
+            }
+            let Some(game) = &game.with_variation(path) else { continue };
+            let mut rendered = Rendered::default();
+            let line = Line { file, game, part, folder, variation: Some(name), variations };
+            outcome = line.render(self, studio, &mut rendered);
+            is_whole &= game.is_whole();
+            lines.push(VariationLine::new(game, name, rendered.frames));
+            all.add(&rendered);
+        }
+        if self.job.variations {
+            let unplayable = entry.unplayable();
+            is_whole &= unplayable.is_empty();
+            lines.extend(unplayable.into_iter().map(VariationLine::unplayable));
+        }
+        let status = match outcome {
+            Ok(()) if all.is_cancelled => Status::Stopped,
+            Ok(()) if is_whole => Status::Rendered,
+            Ok(()) => Status::Partial,
+            Err(_) => Status::Stopped,
+        };
+        match status {
+            Status::Rendered => summary.rendered += 1,
+            _ => summary.partial += 1,
+        }
+        summary.frames += all.frames;
+        summary.kept += all.kept;
+        summary.films += all.films;
+        (ReportLine::new(game, status, all.frames, Some(name)).with(lines), outcome)
     }
 }

@@ -1,5 +1,6 @@
 //! The records beside the pictures: `game.json` and the lines of `report.jsonl`.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde::Serialize;
@@ -8,6 +9,7 @@ use serde_json::{Map, Value};
 use super::studio::SettingsRecord;
 use crate::game::{Game, Problem, Variation, shortened};
 use crate::notation::Color;
+use crate::output::{JsonLines, OutputError};
 use crate::timeline::{Card, Film, Frame, Gaze};
 
 /// What became of a game.
@@ -24,6 +26,40 @@ pub enum Status {
     Stopped,
 }
 
+/// `report.jsonl` under way: lines in the order of the games, whichever of them is done first.
+pub struct Report {
+    lines: JsonLines,
+    /// Those that come after one that is still missing, by their places.
+    waiting: BTreeMap<usize, ReportLine>,
+    next: usize,
+}
+
+impl Report {
+    /// Begins the report of the games in `folder`.
+    pub fn begin(folder: &Path) -> Result<Report, OutputError> {
+        let lines = JsonLines::begin(&folder.join("report.jsonl"))?;
+        Ok(Report { lines, waiting: BTreeMap::new(), next: 0 })
+    }
+
+    /// Adds the line of the game at `place`, counted from 0.
+    pub fn add(&mut self, place: usize, line: ReportLine) -> Result<(), OutputError> {
+        self.waiting.insert(place, line);
+        while let Some(line) = self.waiting.remove(&self.next) {
+            self.lines.add(&line)?;
+            self.next += 1;
+        }
+        Ok(())
+    }
+
+    /// Puts it in its place, with all lines that there are.
+    pub fn finish(mut self) -> Result<(), OutputError> {
+        for line in self.waiting.values() {
+            self.lines.add(line)?;
+        }
+        self.lines.finish()
+    }
+}
+
 /// A game's line of `report.jsonl`.
 #[derive(Serialize)]
 pub struct ReportLine {
@@ -35,8 +71,8 @@ pub struct ReportLine {
     status: Status,
     /// Half-moves that could be played.
     plies: usize,
-    /// Pictures that were written, or went into films.
-    frames: usize,
+    /// Pictures that are there, or went into films.
+    frames: u64,
     /// The folder of the pictures, beside the report.
     folder: Option<String>,
     problems: Vec<Problem>,
@@ -52,13 +88,13 @@ pub struct VariationLine {
     folder: Option<String>,
     /// Half-moves from the game's start.
     plies: usize,
-    frames: usize,
+    frames: u64,
     problems: Vec<Problem>,
 }
 
 impl VariationLine {
     /// The line of a variation, which `line` has gone on with.
-    pub fn new(line: &Game, folder: &Path, frames: usize) -> VariationLine {
+    pub fn new(line: &Game, folder: &Path, frames: u64) -> VariationLine {
         VariationLine {
             folder: Some(folder.to_string_lossy().into_owned()),
             plies: line.plies.len(),
@@ -75,7 +111,7 @@ impl VariationLine {
 }
 
 impl ReportLine {
-    pub fn new(game: &Game, status: Status, frames: usize, folder: Option<String>) -> ReportLine {
+    pub fn new(game: &Game, status: Status, frames: u64, folder: Option<String>) -> ReportLine {
         ReportLine {
             game: game.number,
             line: game.line,
@@ -97,7 +133,7 @@ impl ReportLine {
     }
 }
 
-/// `game.json`.
+/// `game.json`. It is written before the first picture, with all that are to come.
 #[derive(Serialize)]
 pub struct Manifest<'a> {
     pub file: &'a str,
@@ -115,10 +151,12 @@ pub struct Manifest<'a> {
     pub orbit: f64,
     /// Whether the camera turns so far with each move.
     pub orbits_each_move: bool,
+    /// Of all that follows: a film is the same where this is.
+    pub fingerprint: &'a str,
     /// The films beside it.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub films: Vec<String>,
-    pub frames: Vec<FrameRow>,
+    pub frames: Vec<&'a FrameRow>,
 }
 
 /// One picture of a manifest.
@@ -127,6 +165,8 @@ pub struct FrameRow {
     /// Nothing where the frame is only in films.
     #[serde(skip_serializing_if = "Option::is_none")]
     file: Option<String>,
+    /// Of what is in the file.
+    fingerprint: String,
     /// Seconds from the beginning of the film.
     time: f64,
     /// Half-moves before the position that is shown, or that the move under way leaves; so `san`,
@@ -147,10 +187,11 @@ pub struct FrameRow {
 }
 
 impl FrameRow {
-    pub fn new(file: Option<String>, game: &Game, frame: &Frame) -> FrameRow {
+    pub fn new(file: Option<String>, fingerprint: String, game: &Game, frame: &Frame) -> FrameRow {
         let placement = game.placement(frame.ply);
         FrameRow {
             file,
+            fingerprint,
             // To the microsecond: sums of decimal fractions leave crumbs behind.
             time: (frame.time * 1e6).round() / 1e6,
             ply: frame.ply,
@@ -162,6 +203,21 @@ impl FrameRow {
             card: frame.card,
             camera: frame.gaze,
         }
+    }
+}
+
+impl FrameRow {
+    pub fn file(&self) -> Option<&str> {
+        self.file.as_deref()
+    }
+
+    pub fn fingerprint(&self) -> &str {
+        &self.fingerprint
+    }
+
+    /// What is shown, and when.
+    pub fn shows(&self) -> (&str, f64) {
+        (&self.fingerprint, self.time)
     }
 }
 

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use image::DynamicImage;
 use serde::Serialize;
 
+use super::shared::Shared;
 use super::{JobError, shown};
 use crate::assets::{Assets, SetName};
 use crate::caption::{Caption, Content};
@@ -30,8 +31,22 @@ pub struct PictureSettings {
 impl PictureSettings {
     /// The files that are read for pictures, if they are there.
     pub(super) fn inputs(&self) -> Vec<PathBuf> {
-        let bitmaps = self.config.bitmaps().into_iter().cloned();
-        self.config_file.iter().cloned().chain(bitmaps).chain(self.set.files()).collect()
+        self.config_file.iter().cloned().chain(self.drawn_files()).collect()
+    }
+
+    /// Those of them that have something in them that is drawn.
+    pub(super) fn drawn_files(&self) -> Vec<PathBuf> {
+        self.config.bitmaps().into_iter().cloned().chain(self.set.files()).collect()
+    }
+
+    /// These as they stand in a manifest.
+    pub(super) fn record(&self) -> SettingsRecord<'_> {
+        SettingsRecord {
+            version: env!("CARGO_PKG_VERSION"),
+            config_file: self.config_file.as_deref().map(shown),
+            set: printable(&self.set.to_string()),
+            config: &self.config,
+        }
     }
 
     /// Starts the threads on which pictures are made.
@@ -92,6 +107,8 @@ pub(super) struct Studio<'a> {
     caption: Caption,
     tracer: Tracer,
     last: Option<Shot>,
+    /// Scenes that other games may have too.
+    shared: Option<&'a Shared<'a>>,
     rays: RayCounts,
 }
 
@@ -107,8 +124,14 @@ impl<'a> Studio<'a> {
             caption,
             tracer: Tracer::new(*width, *height, antialiasing(render)),
             last: None,
+            shared: None,
             rays: RayCounts::default(),
         })
+    }
+
+    /// This studio, which takes scenes that are there already, and leaves its own.
+    pub fn sharing(self, shared: &'a Shared<'a>) -> Studio<'a> {
+        Studio { shared: Some(shared), ..self }
     }
 
     /// The picture of a frame of a film, with `content` in words if there is any. What stood still since the
@@ -123,7 +146,7 @@ impl<'a> Studio<'a> {
         let shown = shown_of(self.settings, frame);
         let (scene, said) = match self.last.take() {
             Some(last) if shown.shows_the_same(&last.shown) => (last.scene, last.said),
-            _ => (Arc::new(RepeatedPicture::new(self.trace(&shown, coming))), None),
+            _ => (self.scene(&shown, coming), None),
         };
         let said = content.map(|content| match said {
             Some((last, picture)) if last == *content => (last, picture),
@@ -135,6 +158,18 @@ impl<'a> Studio<'a> {
         let picture = said.as_ref().map_or(&scene, |(_, picture)| picture).clone();
         self.last = Some(Shot { shown, scene, said });
         picture
+    }
+
+    /// The scene of a frame, from those that are shared if it is among them.
+    fn scene(
+        &mut self,
+        frame: &Frame,
+        coming: impl Iterator<Item = Frame>,
+    ) -> Arc<RepeatedPicture> {
+        match self.shared {
+            None => Arc::new(RepeatedPicture::new(self.trace(frame, coming))),
+            Some(shared) => shared.scene(frame, || self.trace(frame, coming)),
+        }
     }
 
     /// The same picture, if it is the only one.
@@ -179,15 +214,6 @@ impl<'a> Studio<'a> {
     /// All rays so far.
     pub fn rays(&self) -> RayCounts {
         self.rays
-    }
-
-    pub fn record(&self) -> SettingsRecord<'a> {
-        SettingsRecord {
-            version: env!("CARGO_PKG_VERSION"),
-            config_file: self.settings.config_file.as_deref().map(shown),
-            set: printable(&self.settings.set.to_string()),
-            config: &self.settings.config,
-        }
     }
 }
 

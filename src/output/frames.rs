@@ -1,15 +1,8 @@
 //! Names of numbered pictures, films and manifests.
 
-use std::collections::BTreeSet;
-use std::fs;
-use std::io;
 use std::ops::RangeInclusive;
-use std::path::Path;
 
-use serde_json::Value;
-
-use super::OutputError;
-use super::film::{FILM_FORMATS, FilmFormat};
+use super::film::FilmFormat;
 use super::picture::{FORMATS, PictureFormat};
 
 /// Names of numbered pictures in one folder: `frame_00000.png`.
@@ -127,6 +120,12 @@ fn number_in(pattern: &str) -> Option<(&str, usize, &str)> {
     (!after.contains('#')).then(|| (before, 1 + rest.len() - after.len(), after))
 }
 
+/// Which picture has that name, by `names` or usually.
+pub(super) fn frame_index(name: &str, names: Option<&FrameNames>) -> Option<usize> {
+    let usual = || FORMATS.iter().find_map(|(_, format)| FrameNames::new(*format).index(name));
+    names.and_then(|names| names.index(name)).or_else(usual)
+}
+
 /// The name of a game's manifest, or of that of a part of its frames.
 pub fn manifest_name(part: Option<&RangeInclusive<usize>>) -> String {
     match part {
@@ -142,126 +141,6 @@ pub fn film_name(format: FilmFormat, part: Option<&RangeInclusive<usize>>) -> St
         None => format!("film.{ending}"),
         Some(part) => format!("film_{:05}-{:05}.{ending}", part.start(), part.end()),
     }
-}
-
-/// Removes the numbered pictures of an earlier run from `folder`, by `names`, by their usual ones and by its manifest, its films,
-/// its manifests, and all of its variations: they would stand among the new ones, and be of another film.
-/// Where a `part` is rendered, only its film, and its pictures where there are to be others.
-///
-/// # Errors
-/// When the folder cannot be read, or a picture cannot be removed.
-pub fn remove_frames(
-    folder: &Path,
-    names: Option<&FrameNames>,
-    part: Option<&RangeInclusive<usize>>,
-) -> Result<(), OutputError> {
-    let failed = |error| OutputError { path: folder.to_owned(), error };
-    let listed = listed(folder);
-    for entry in fs::read_dir(folder).map_err(failed)? {
-        let entry = entry.map_err(failed)?;
-        let name = entry.file_name().to_string_lossy().into_owned();
-        // What a link leads to is not ours.
-        let kind = entry.file_type().map_err(failed)?;
-        if kind.is_dir() && part.is_none() && is_variation(&name) {
-            remove_variation(&entry.path(), names)?;
-            continue;
-        }
-        let is_old = match (frame_index(&name, names), part) {
-            (Some(index), Some(part)) => names.is_some() && part.contains(&index),
-            (Some(_), None) => true,
-            (None, None) if listed.contains(&name) => true,
-            (None, Some(part)) => {
-                FILM_FORMATS.iter().any(|(_, film)| name == film_name(*film, Some(part)))
-            }
-            (None, None) => is_manifest(&name) || is_film(&name),
-        };
-        if is_old && !kind.is_dir() {
-            remove_if_there(&entry.path()).map_err(failed)?;
-        }
-    }
-    Ok(())
-}
-
-/// Removes what a variation's folder holds of ours; without a manifest it is another's, unless it is empty.
-fn remove_variation(folder: &Path, names: Option<&FrameNames>) -> Result<(), OutputError> {
-    let failed = |error| OutputError { path: folder.to_owned(), error };
-    let manifest = folder.join(manifest_name(None));
-    if manifest.is_file() {
-        remove_frames(folder, names, None)?;
-        remove_if_there(&manifest).map_err(failed)?;
-    } else {
-        for entry in fs::read_dir(folder).map_err(failed)? {
-            let entry = entry.map_err(failed)?;
-            let is_nested = is_variation(&entry.file_name().to_string_lossy());
-            if is_nested && entry.file_type().map_err(failed)?.is_dir() {
-                remove_variation(&entry.path(), names)?;
-            }
-        }
-    }
-    // Somebody may keep other things in it.
-    let _ = fs::remove_dir(folder);
-    Ok(())
-}
-
-fn remove_if_there(path: &Path) -> io::Result<()> {
-    match fs::remove_file(path) {
-        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
-        _ => Ok(()),
-    }
-}
-
-/// Whether a folder is named as those of variations are: `12w-nf3`.
-fn is_variation(name: &str) -> bool {
-    let rest = name.trim_start_matches(|c: char| c.is_ascii_digit());
-    let san = rest.strip_prefix("w-").or(rest.strip_prefix("b-"));
-    let is_plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
-    rest.len() < name.len() && san.is_some_and(|san| !san.is_empty() && san.chars().all(is_plain))
-}
-
-/// Which picture has that name, by `names` or usually.
-fn frame_index(name: &str, names: Option<&FrameNames>) -> Option<usize> {
-    let usual = || FORMATS.iter().find_map(|(_, format)| FrameNames::new(*format).index(name));
-    names.and_then(|names| names.index(name)).or_else(usual)
-}
-
-/// The pictures that a folder's manifest names, by files of formats that we write.
-fn listed(folder: &Path) -> BTreeSet<String> {
-    let manifest = fs::read(folder.join(manifest_name(None))).unwrap_or_default();
-    let manifest: Value = serde_json::from_slice(&manifest).unwrap_or_default();
-    let rows = manifest["frames"].as_array().into_iter().flatten();
-    let files = rows.filter_map(|row| row["file"].as_str());
-    let is_picture = |file: &&str| {
-        let ending = file.rsplit_once('.').map_or("", |(_, ending)| ending);
-        PictureFormat::named(ending).is_some()
-    };
-    files.filter(is_picture).map(str::to_owned).collect()
-}
-
-/// Whether a manifest, or one of a part, has that name.
-fn is_manifest(name: &str) -> bool {
-    name == manifest_name(None) || is_part_manifest(name)
-}
-
-fn is_part_manifest(name: &str) -> bool {
-    name.strip_prefix("game_").and_then(|rest| rest.strip_suffix(".json")).is_some_and(is_part)
-}
-
-/// Whether a film, or one of a part, has that name.
-fn is_film(name: &str) -> bool {
-    FILM_FORMATS.iter().any(|(ending, _)| {
-        let stem = name.strip_suffix(ending).and_then(|rest| rest.strip_suffix('.'));
-        stem.and_then(|stem| stem.strip_prefix("film"))
-            .is_some_and(|rest| rest.is_empty() || rest.strip_prefix('_').is_some_and(is_part))
-    })
-}
-
-/// Whether that stands for a part of the frames: `00100-00250`.
-fn is_part(text: &str) -> bool {
-    text.split_once('-').is_some_and(|(a, b)| is_number(a) && is_number(b))
-}
-
-fn is_number(digits: &str) -> bool {
-    digits.len() >= 5 && digits.bytes().all(|b| b.is_ascii_digit())
 }
 
 #[cfg(test)]
@@ -315,38 +194,6 @@ mod tests {
         ] {
             let error = FrameNames::parse(pattern, format).unwrap_err();
             assert!(error.contains(expected), "{error}");
-        }
-    }
-
-    #[test]
-    fn films_are_told_from_others() {
-        for (_, format) in FILM_FORMATS {
-            for part in [None, Some(&(100..=250))] {
-                assert!(is_film(&film_name(format, part)));
-            }
-        }
-        for other in ["film.avi", "film_1-2.gif", "film", "my_film.gif", "filmgif"] {
-            assert!(!is_film(other), "{other}");
-        }
-    }
-
-    #[test]
-    fn folders_of_variations_are_told_from_others() {
-        for name in ["12w-nf3", "1b-o-o-o-2", "100w-axb8q"] {
-            assert!(is_variation(name), "{name}");
-        }
-        for other in ["w-nf3", "12w", "12w-", "12-nf3", "12w-Nf3", "0001-morphy-black", "12w-../x"]
-        {
-            assert!(!is_variation(other), "{other}");
-        }
-    }
-
-    #[test]
-    fn manifests_of_parts_are_told_from_others() {
-        assert!(is_part_manifest(&manifest_name(Some(&(100..=250)))));
-        for other in [&manifest_name(None), "game_1-2.json", "game_00100.json", "game_my-own.json"]
-        {
-            assert!(!is_part_manifest(other), "{other}");
         }
     }
 }

@@ -3,21 +3,29 @@
 //! A file is written whole or not at all: under a temporary name in the same folder, then renamed.
 
 mod bmp;
+mod earlier;
 mod film;
 mod frames;
+mod inside;
+mod lock;
 mod picture;
 mod png;
 mod record;
 mod repeated;
 mod slug;
+mod whole;
 
+pub use earlier::Earlier;
 pub use film::{Cut, FILM_FORMATS, Ffmpeg, FfmpegError, FilmFormat, FilmWriter, Stop};
-pub use frames::{FrameNames, film_name, manifest_name, remove_frames};
+pub use frames::{FrameNames, film_name, manifest_name};
+pub use inside::{prepare_inside, remove_temporaries};
+pub use lock::{FolderLock, LockError};
 pub use picture::{FORMATS, PictureFormat, write_picture};
 pub use png::encode_png;
-pub use record::{write_json, write_json_lines};
+pub use record::{JsonLines, write_json};
 pub use repeated::RepeatedPicture;
 pub use slug::slug;
+pub use whole::is_whole;
 
 use std::fs;
 use std::io::{self, BufWriter, Write};
@@ -102,6 +110,22 @@ fn write_whole(
     write_together(&[(path.to_owned(), &content)])
 }
 
+/// Writes a file of a folder that is ours: whole under a temporary name, then renamed. What has that name is replaced,
+/// and a link is not followed.
+fn write_inside(
+    path: &Path,
+    content: impl Fn(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), OutputError> {
+    let written = || {
+        let mut out = BufWriter::new(temporary(path)?);
+        content(&mut out)?;
+        let file = out.into_inner().map_err(io::IntoInnerError::into_error)?;
+        file.persist(path).map_err(|error| error.error)?;
+        Ok(())
+    };
+    written().map_err(|error| OutputError { path: path.to_owned(), error })
+}
+
 /// A file under a temporary name, and where it belongs; nothing is left to do for what is no file.
 fn staged(path: &Path, content: Content) -> Result<Option<(NamedTempFile, PathBuf)>, OutputError> {
     let target = fs::canonicalize(path).unwrap_or_else(|_| match fs::read_link(path) {
@@ -128,11 +152,14 @@ fn staged(path: &Path, content: Content) -> Result<Option<(NamedTempFile, PathBu
     written().map_err(|error| OutputError { path: path.to_owned(), error })
 }
 
+/// How names of files begin that are not whole yet.
+const TEMPORARY: &str = ".lightsquare-";
+
 /// A file under a temporary name, in the folder of `target`; it is removed when it is dropped.
 fn temporary(target: &Path) -> io::Result<NamedTempFile> {
     let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty());
     let mut builder = tempfile::Builder::new();
-    builder.prefix(".lightsquare-");
+    builder.prefix(TEMPORARY);
     // Readable as any other file is; the default is for secrets.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));

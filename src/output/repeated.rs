@@ -8,7 +8,7 @@ use image::DynamicImage;
 
 use super::picture::{PictureFormat, encode};
 use super::png::Packed;
-use super::{OutputError, write_whole};
+use super::{OutputError, write_inside};
 
 /// A picture that may be written to many files of one format, each with its own texts: it is compressed once.
 pub struct RepeatedPicture {
@@ -32,7 +32,8 @@ impl RepeatedPicture {
         &self.picture
     }
 
-    /// Writes the file that [`write_picture`](super::write_picture) would.
+    /// Writes the file that [`write_picture`](super::write_picture) would, in a folder of ours: a link of that name is
+    /// replaced.
     ///
     /// # Errors
     /// When the file cannot be written.
@@ -42,10 +43,25 @@ impl RepeatedPicture {
         format: PictureFormat,
         texts: &[(&str, String)],
     ) -> Result<(), OutputError> {
-        write_whole(path, |out| match &*self.made(format)? {
+        write_inside(path, |out| match &*self.made(format)? {
             Made::Png(packed) => packed.write(texts, None, out),
             Made::Other(bytes) => out.write_all(bytes),
         })
+    }
+
+    /// How long its file is, without texts.
+    ///
+    /// # Errors
+    /// When it cannot be encoded.
+    pub fn bytes(&self, format: PictureFormat) -> io::Result<usize> {
+        match &*self.made(format)? {
+            Made::Png(packed) => {
+                let mut file = Vec::new();
+                packed.write(&[], None, &mut file)?;
+                Ok(file.len())
+            }
+            Made::Other(bytes) => Ok(bytes.len()),
+        }
     }
 
     /// Those who come while it is made wait for it.

@@ -25,7 +25,7 @@ pub use plan::ceiling;
 pub use shown::{Card, Dials, Gaze, Marks, digital};
 pub use tray::reach as tray_reach;
 
-use std::cell::OnceCell;
+use std::sync::OnceLock;
 
 use crate::game::Game;
 use crate::notation::Placement;
@@ -110,7 +110,7 @@ pub struct Timeline<'a> {
     /// What leads from each position to the next.
     motions: Vec<Motion>,
     /// The ways of the pieces in each, once they were asked for.
-    plans: Vec<OnceCell<Plan>>,
+    plans: Vec<OnceLock<Plan>>,
     first_ply: usize,
     schedule: Schedule,
     /// What happens in each frame, where each position is one.
@@ -138,7 +138,7 @@ impl<'a> Timeline<'a> {
             positions: Vec::with_capacity(last + 1 - first),
             marks: (first..=last).map(|ply| marks(game, ply)).collect(),
             motions: Vec::with_capacity(last - first),
-            plans: vec![OnceCell::new(); last - first],
+            plans: vec![OnceLock::new(); last - first],
             first_ply: first,
             stills: stills(last - first, script.film),
             track: Track::new(&script.camerawork, game, [first, last], &schedule)?,
