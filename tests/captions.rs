@@ -111,12 +111,14 @@ fn a_pause_is_traced_once() {
         config.captions.show = true;
         let job = RenderJob {
             inputs: vec![game.clone()],
-            out: folder.path().join("out"),
+            out: folder.path().join(format!("out-{fps}")),
             selection: None,
             from: Moment::Ply(0),
             to: Moment::End,
             variations: false,
             frames: None,
+            every: 1,
+            refuses_old: false,
             names: Some(FrameNames::new(PictureFormat::Png)),
             films: Films::default(),
             showing: Showing {

@@ -137,7 +137,7 @@ fn other_settings_are_never_mixed() {
             } else {
                 let mut command = Command::cargo_bin("lightsquare").unwrap();
                 command.current_dir(folder.path()).args(["render", "games.pgn"]);
-                command.args(&PLAIN[..4]).args(parts.concat()).ok();
+                command.args(&PLAIN[..4]).args(parts.concat()).output().unwrap();
             }
         }
         let expected = TempDir::new().unwrap();
