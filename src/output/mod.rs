@@ -49,11 +49,21 @@ fn of_image(error: ImageError) -> io::Error {
 
 /// A file or folder that could not be written.
 #[derive(Debug, thiserror::Error)]
-#[error("{}: cannot be written", path.display())]
+#[error("{}: cannot be written{}", path.display(), advice(error))]
 pub struct OutputError {
     pub path: PathBuf,
     #[source]
     pub error: io::Error,
+}
+
+/// What helps, where that is known.
+fn advice(error: &io::Error) -> &'static str {
+    match error.kind() {
+        io::ErrorKind::StorageFull => {
+            " (what is finished stays, and the same command goes on with it once there is room)"
+        }
+        _ => "",
+    }
 }
 
 /// Makes `folder` with all that lead to it, and makes sure that files can be written there.
