@@ -14,12 +14,15 @@ const GAMES: &str = "[White \"A\"]\n[Black \"B\"]\n\n1. e4 e5 2. Nf3 (2. Bc4 Nc6
     [White \"C\"]\n[Black \"D\"]\n\n1. e4 e5 2. Nf3 d6 3. d5 *\n\n\
     [White \"E\"]\n[FEN \"nothing\"]\n\n1. e4 *\n";
 
-const PLAIN: [&str; 6] = ["--look", "thesis", "--aa", "none", "--size", "40x30"];
+const PLAIN: [&str; 4] = ["--look", "thesis", "--aa", "none"];
 
 fn command(folder: &Path, parts: &[&[&str]]) -> Command {
     fs::write(folder.join("games.pgn"), GAMES).unwrap();
     let mut command = Command::cargo_bin("lightsquare").unwrap();
     command.current_dir(folder).args(["render", "games.pgn"]).args(PLAIN).args(parts.concat());
+    if !parts.concat().contains(&"--size") {
+        command.args(["--size", "40x30"]);
+    }
     command
 }
 
@@ -72,7 +75,7 @@ fn what_is_done_is_not_done_again() {
     let folder = TempDir::new().unwrap();
     let parts: &[&[&str]] = &[&["--variations", "--film", "gif"]];
     let said = done(folder.path(), parts);
-    assert!(said.contains("14 frames, 3 films in out"), "{said}");
+    assert!(said.contains("15 frames, 3 films in out"), "{said}");
     let before = out(folder.path());
     // Whatever is written again has another time.
     let old = SystemTime::now() - Duration::from_secs(1000);
@@ -83,7 +86,7 @@ fn what_is_done_is_not_done_again() {
         fs::File::options().write(true).open(path).unwrap().set_modified(old).unwrap();
     }
     let said = done(folder.path(), parts);
-    assert!(said.contains("14 frames (14 of them were there), 3 films in out"), "{said}");
+    assert!(said.contains("15 frames (15 of them were there), 3 films in out"), "{said}");
     assert_eq!(out(folder.path()), before);
     for path in pictures {
         assert_eq!(fs::metadata(&path).unwrap().modified().unwrap(), old, "{}", path.display());
@@ -106,7 +109,7 @@ fn what_is_missing_or_broken_is_done_again() {
         // The film is made of the pictures that are there, where they are exact.
         fs::remove_file(first.join("film.apng")).unwrap();
         let said = done(folder.path(), parts);
-        assert!(said.contains("12 frames (9 of them were there), 2 films"), "{said}");
+        assert!(said.contains("12 frames (9 of them were there), 2 films"), "{format}: {said}");
         assert!(out(folder.path()) == before, "{format}");
     }
 }
@@ -116,7 +119,7 @@ fn other_settings_are_never_mixed() {
     let first = &["--to", "2b"][..];
     for other in [
         &["--flip"][..],
-        &["--aa", "grid"],
+        &["--plain"],
         &["--theme", "marble"],
         &["--captions", "--size", "120x76"],
         &["--animate", "--fps", "2"],
@@ -131,17 +134,11 @@ fn other_settings_are_never_mixed() {
     ] {
         let folder = TempDir::new().unwrap();
         for parts in [&[first][..], &[first, &["--frames", "1-2"]], &[other], &[first], &[other]] {
-            // Of what was given twice the last counts.
-            if parts.concat().iter().filter(|part| **part == "--size").count() == 0 {
-                run(folder.path(), parts);
-            } else {
-                let mut command = Command::cargo_bin("lightsquare").unwrap();
-                command.current_dir(folder.path()).args(["render", "games.pgn"]);
-                command.args(&PLAIN[..4]).args(parts.concat()).output().unwrap();
-            }
+            run(folder.path(), parts);
         }
         let expected = TempDir::new().unwrap();
-        run(expected.path(), &[other]);
+        let (code, said) = run(expected.path(), &[other]);
+        assert_eq!(code, 3, "{said}");
         assert!(out(folder.path()) == out(expected.path()), "{other:?}");
     }
 }

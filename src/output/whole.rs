@@ -1,7 +1,7 @@
 //! Whether a picture's file is whole.
 
 use std::fs::{self, File};
-use std::io::{self, BufReader, Read};
+use std::io::{self, BufReader, Read, Seek, SeekFrom};
 use std::path::Path;
 
 use image::{ImageFormat, ImageReader};
@@ -18,7 +18,7 @@ pub fn is_whole(path: &Path, format: PictureFormat) -> bool {
     is_file
         && match format {
             PictureFormat::Png => File::open(path).and_then(|file| ends_well(BufReader::new(file))),
-            PictureFormat::Jpeg => decodes(path, ImageFormat::Jpeg),
+            PictureFormat::Jpeg => is_jpeg(path),
             PictureFormat::Bmp => decodes(path, ImageFormat::Bmp),
             PictureFormat::Tiff => decodes(path, ImageFormat::Tiff),
             PictureFormat::Webp => decodes(path, ImageFormat::WebP),
@@ -58,6 +58,15 @@ fn ends_well(mut file: impl Read) -> io::Result<bool> {
     }
 }
 
+/// Whether it can be decoded, and comes to its end mark: its decoder makes do with less.
+fn is_jpeg(path: &Path) -> io::Result<bool> {
+    let mut last = [0; 2];
+    let mut file = File::open(path)?;
+    file.seek(SeekFrom::End(-2))?;
+    file.read_exact(&mut last)?;
+    Ok(last == [0xFF, 0xD9] && decodes(path, ImageFormat::Jpeg)?)
+}
+
 fn decodes(path: &Path, format: ImageFormat) -> io::Result<bool> {
     let reader = ImageReader::with_format(BufReader::new(File::open(path)?), format);
     Ok(reader.decode().is_ok())
@@ -73,14 +82,14 @@ mod tests {
     fn a_file_that_is_cut_is_not_whole() {
         let folder = tempfile::tempdir().unwrap();
         let picture: DynamicImage =
-            RgbImage::from_fn(30, 20, |x, y| Rgb([x as u8 * 8, y as u8 * 12, 7])).into();
+            RgbImage::from_fn(200, 100, |x, y| Rgb([x as u8, y as u8, (x * y) as u8])).into();
         for (ending, format) in FORMATS {
             let path = folder.path().join(format!("x.{ending}"));
             assert!(!is_whole(&path, format), "{ending}");
             write_picture(&path, &picture, &[("Ply", "1".to_owned())], None).unwrap();
             assert!(is_whole(&path, format), "{ending}");
             let bytes = fs::read(&path).unwrap();
-            for length in [0, 1, 7, 20, bytes.len() / 2] {
+            for length in [0, 1, 7, 20, bytes.len() / 2, bytes.len() * 3 / 4] {
                 fs::write(&path, &bytes[..length]).unwrap();
                 assert!(!is_whole(&path, format), "{ending}: {length}");
             }
