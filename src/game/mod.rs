@@ -9,27 +9,37 @@
 mod bytes;
 mod clock;
 mod command;
+mod date;
 mod glyph;
 mod line;
 mod movetext;
 mod notes;
 mod outcome;
+mod pattern;
+mod player;
 mod replay;
 mod scan;
 mod select;
 mod source;
 mod start;
+mod tag_test;
 mod variation;
+mod wanted;
+mod wildcard;
 mod word;
 
 pub use clock::Clocks;
 pub use notes::{Eval, Notes};
 pub use outcome::Ending;
+pub use pattern::{ParsePatternError, PositionPattern};
+pub use player::{Players, PlayersError};
 pub use scan::{ScannedGame, Scanner};
 pub use select::{Absent, Moment, ParseMomentError, ParseSelectionError, Selection};
 pub use source::{Games, Source, SourceError};
 pub use start::fen_position;
+pub use tag_test::{ParseTagTestError, TagTest};
 pub use variation::Branch;
+pub use wanted::{ParsePlyRangeError, PlyRange, Wanted};
 pub use word::{printable, shortened};
 
 use shakmaty::fen::Fen;
@@ -212,4 +222,9 @@ impl Game {
 
 fn tag<'a>(tags: &'a [(String, String)], name: &str) -> Option<&'a str> {
     tags.iter().find(|(known, _)| known.eq_ignore_ascii_case(name)).map(|(_, value)| value.as_str())
+}
+
+/// Whether the value of a tag says anything: what is empty, `?` or `????.??.??` does not.
+fn is_known(value: &str) -> bool {
+    value.chars().any(|c| !matches!(c, '?' | '.') && !c.is_whitespace())
 }

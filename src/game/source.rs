@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader};
 use std::path::Path;
 
-use super::{Game, Problem, Scanner, printable};
+use super::{Game, Problem, Scanner, Wanted, printable};
 
 /// A file of games that is open, or the standard input.
 pub struct Source {
@@ -98,10 +98,15 @@ pub struct Games {
     has_ended: bool,
 }
 
-impl Iterator for Games {
-    type Item = Result<Game, SourceError>;
+impl Games {
+    /// How many games have come by, those that were not wanted too.
+    pub fn seen(&self) -> usize {
+        self.number
+    }
 
-    fn next(&mut self) -> Option<Result<Game, SourceError>> {
+    /// The next game that is wanted. What its tags rule out is not replayed, and of a game that is not wanted
+    /// nothing is reported.
+    pub fn next_wanted(&mut self, wanted: &Wanted) -> Option<Result<Game, SourceError>> {
         let name = || self.name.clone();
         while !self.has_ended {
             let scanned = match self.scanner.next() {
@@ -123,9 +128,15 @@ impl Iterator for Games {
                 continue;
             }
             self.number += 1;
+            let strays = std::mem::take(&mut self.strays);
+            if !wanted.takes_head(self.number, &scanned.tags) {
+                continue;
+            }
             let mut game = Game::read(scanned, self.number);
-            game.problems.splice(0..0, self.strays.drain(..));
-            return Some(Ok(game));
+            if wanted.takes_game(&game) {
+                game.problems.splice(0..0, strays);
+                return Some(Ok(game));
+            }
         }
         let strays = std::mem::take(&mut self.strays);
         match strays.first() {
@@ -137,9 +148,20 @@ impl Iterator for Games {
             None => None,
             Some(first) => {
                 self.number += 1;
-                Some(Ok(Game::nothing(self.number, first.line, strays)))
+                let game = Game::nothing(self.number, first.line, strays);
+                let is_wanted =
+                    wanted.takes_head(game.number, &game.tags) && wanted.takes_game(&game);
+                is_wanted.then_some(Ok(game))
             }
         }
+    }
+}
+
+impl Iterator for Games {
+    type Item = Result<Game, SourceError>;
+
+    fn next(&mut self) -> Option<Result<Game, SourceError>> {
+        self.next_wanted(&Wanted::default())
     }
 }
 
