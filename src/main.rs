@@ -98,9 +98,10 @@ fn run() -> anyhow::Result<ExitCode> {
             Ok(ExitCode::SUCCESS)
         }
         Command::Inspect(args) => {
+            let job = args.into_job()?;
             let terminal = terminal(Signals::default());
             let mut out = BufWriter::new(io::stdout().lock());
-            match job::inspect(&args.into_job(), &terminal, &mut out) {
+            match job::inspect(&job, &terminal, &mut out) {
                 // Whoever reads has seen enough.
                 Err(JobError::Write(error)) if error.kind() == ErrorKind::BrokenPipe => {
                     Ok(ExitCode::SUCCESS)

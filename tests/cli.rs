@@ -257,7 +257,7 @@ fn bad_input_gets_a_sentence_and_leaves_nothing_behind() {
         (
             &["render", "game.pgn", "--select", "2"],
             1,
-            "game.pgn: none of the selected games is there, it has 1",
+            "game.pgn: none of its games is selected, it has 1",
         ),
         (&["render", "game.pgn", "--select", "x"], 2, "`x` is no game number or range"),
         (&["render", "game.pgn", "--size", "99999999x99999999"], 2, "each from 1 to 16384"),

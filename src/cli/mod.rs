@@ -9,13 +9,14 @@ mod subject;
 pub mod table;
 mod thesis;
 mod values;
+mod wanted;
 
 use std::path::{Path, PathBuf};
 
 use anyhow::bail;
 use clap::{Args, ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 use lightsquare::config::{Config, Look, Shading};
-use lightsquare::game::{Moment, Selection};
+use lightsquare::game::{Moment, Wanted};
 use lightsquare::job::{
     BenchJob, DiagramJob, ExportJob, InspectJob, Listing, PictureSettings, RenderJob,
 };
@@ -28,6 +29,7 @@ use picture::PictureArgs;
 use print::PrintArgs;
 use subject::SubjectArgs;
 use values::{every, plies, runs, threads};
+use wanted::WantedArgs;
 
 /// Reads chess games (PGN), replays them and ray-traces them into pictures and films.
 #[derive(Parser)]
@@ -114,7 +116,7 @@ pub enum Command {
     #[command(after_help = DIAGRAM_EXAMPLES)]
     Diagram(DiagramArgs),
     /// Say what files hold: a line a game, every position, or what is said of the moves
-    #[command(after_help = INSPECT_EXAMPLES)]
+    #[command(after_help = format!("{INSPECT_EXAMPLES}\n\n{}", wanted::EXAMPLES))]
     Inspect(InspectArgs),
     /// Write the scene of one position for another renderer
     #[command(after_help = EXPORT_EXAMPLES)]
@@ -149,6 +151,7 @@ Examples:
   lightsquare inspect games/*.pgn
   lightsquare inspect games/opera-1858.pgn --positions | cut -f 4
   lightsquare inspect games/*.pgn --notes > notes.tsv
+  lightsquare inspect base.pgn --player Kasparov --tag 'Date<1990' --checkmate
 
 In the table of --notes times are seconds, evals pawns or #moves to mate, and - is nothing; the main
 line's variation is -, others are named by the moves that begin them (12w-nf3/13b-e5).";
@@ -175,9 +178,6 @@ pub struct RenderArgs {
     /// Folder for the pictures
     #[arg(short, long, value_name = "DIR", default_value = "out")]
     out: PathBuf,
-    /// Numbers of games in their file, as in 3, 5-9 or 1:3,10
-    #[arg(long, value_name = "GAMES")]
-    select: Option<Selection>,
     /// First position: after a move (17w, 17b), after so many half-moves, or start
     #[arg(long, value_name = "MOVE", default_value = "start")]
     from: Moment,
@@ -205,6 +205,8 @@ pub struct RenderArgs {
     /// Render variations too, each in a folder of its own within its game's, named by its first move
     #[arg(long, conflicts_with = "frames")]
     variations: bool,
+    #[command(flatten)]
+    wanted: WantedArgs,
     #[command(flatten)]
     film: FilmArgs,
     #[command(flatten)]
@@ -267,9 +269,6 @@ pub struct InspectArgs {
     /// Files of games in PGN; - is the standard input
     #[arg(required = true, value_name = "PGN")]
     inputs: Vec<PathBuf>,
-    /// Numbers of games in their file, as in 3, 5-9 or 1:3,10
-    #[arg(long, value_name = "GAMES")]
-    select: Option<Selection>,
     /// A tab-separated row for every position: game, ply, san, white, black
     #[arg(long, conflicts_with = "notes")]
     positions: bool,
@@ -277,6 +276,8 @@ pub struct InspectArgs {
     /// comments and glyphs say: game, variation, ply, san, clk, emt, eval, csl, cal, nags
     #[arg(long)]
     notes: bool,
+    #[command(flatten)]
+    wanted: WantedArgs,
 }
 
 impl MessageArgs {
@@ -295,12 +296,18 @@ impl RenderArgs {
             bail!(UsageError("--out: expected a folder, found `-`".to_owned()));
         }
         let picture = self.settings()?;
+        let wanted = self.wanted.into_wanted()?;
+        if (Wanted { numbers: None, ..wanted.clone() }) != Wanted::default() {
+            let message = "games to render are chosen by --select alone, expected no other flag that \
+                           chooses games";
+            bail!(UsageError(message.to_owned()));
+        }
         Ok(RenderJob {
             names: self.film.names(&picture.config)?,
             films: self.film.films(&picture.config)?,
             inputs: self.inputs,
             out: self.out,
-            selection: self.select,
+            selection: wanted.numbers,
             from: self.at.unwrap_or(self.from),
             to: self.at.unwrap_or(self.to),
             variations: self.variations,
@@ -382,13 +389,14 @@ impl Command {
 }
 
 impl InspectArgs {
-    pub fn into_job(self) -> InspectJob {
+    pub fn into_job(self) -> Result<InspectJob, UsageError> {
         let listing = match (self.positions, self.notes) {
             (true, _) => Listing::Positions,
             (_, true) => Listing::Notes,
             _ => Listing::Games,
         };
-        InspectJob { inputs: self.inputs, selection: self.select, listing }
+        let wanted = self.wanted.into_wanted()?;
+        Ok(InspectJob { inputs: self.inputs, wanted, listing })
     }
 }
 

@@ -42,6 +42,10 @@ pub fn game_number(text: &str) -> Result<usize, String> {
     whole_number(text, 1, 1_000_000_000)
 }
 
+pub fn limit(text: &str) -> Result<usize, String> {
+    whole_number(text, 1, 1_000_000_000)
+}
+
 pub fn rays(text: &str) -> Result<u32, String> {
     whole_number(text, 1, MAX_RAYS as usize).map(|rays| rays as u32)
 }

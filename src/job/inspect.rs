@@ -4,8 +4,10 @@ use std::fmt::Display;
 use std::io::Write;
 use std::path::PathBuf;
 
-use super::{JobError, Progress, say_missing, say_problems, say_variations, shown};
-use crate::game::{Eval, Game, Notes, Ply, Selection, Source, shortened};
+use super::{
+    JobError, Progress, nothing_selected, say_missing, say_problems, say_variations, shown,
+};
+use crate::game::{Eval, Game, Notes, Ply, Source, Wanted, shortened};
 use crate::notation::Color;
 
 /// Which games to tell of, and how.
@@ -13,8 +15,7 @@ use crate::notation::Color;
 pub struct InspectJob {
     /// Files of games; `-` is the standard input.
     pub inputs: Vec<PathBuf>,
-    /// All games when `None`.
-    pub selection: Option<Selection>,
+    pub wanted: Wanted,
     pub listing: Listing,
 }
 
@@ -41,33 +42,31 @@ impl Listing {
     }
 }
 
-/// Writes what the job asks for; tables have a header line a file. Gives the number of
-/// games that could not be read whole.
+/// Writes what the job asks for; tables have a header line a file. A file that has no game that is wanted is passed
+/// over, as long as another one has. Gives the number of games that could not be read whole.
 ///
 /// # Errors
-/// Input that cannot be read, a selection without games, or what `out` gives.
+/// Input that cannot be read, no game that is wanted in any file, or what `out` gives.
 pub fn inspect(
     job: &InspectJob,
     progress: &dyn Progress,
     out: &mut dyn Write,
 ) -> Result<usize, JobError> {
-    let mut partial = 0;
+    let is_full = |taken| job.wanted.limit().is_some_and(|limit| taken >= limit);
+    let (mut seen, mut taken, mut partial) = (0, 0, 0);
     for input in &job.inputs {
-        let file = shown(input);
-        let games = Source::open(input)?.games();
-        if let Some(header) = job.listing.header() {
-            writeln!(out, "{header}").map_err(JobError::Write)?;
-        } else if job.inputs.len() > 1 {
-            writeln!(out, "{file}").map_err(JobError::Write)?;
+        if is_full(taken) {
+            break;
         }
-        let (mut seen, mut selected) = (0, 0);
-        for game in games {
+        let file = shown(input);
+        let mut games = Source::open(input)?.games();
+        let before = taken;
+        while let Some(game) = games.next_wanted(&job.wanted) {
             let game = game?;
-            seen += 1;
-            if job.selection.as_ref().is_some_and(|selection| !selection.contains(game.number)) {
-                continue;
+            if taken == before {
+                begin(job, &file, out).map_err(JobError::Write)?;
             }
-            selected += 1;
+            taken += 1;
             partial += usize::from(!game.is_whole());
             if job.listing != Listing::Games {
                 say_problems(&file, &game, progress);
@@ -81,14 +80,32 @@ pub fn inspect(
                 }
             };
             written.map_err(JobError::Write)?;
+            let is_last = job.wanted.highest_number().is_some_and(|last| game.number >= last);
+            if is_last || is_full(taken) {
+                break;
+            }
         }
-        if selected == 0 {
-            return Err(JobError::NothingSelected { file, games: seen });
+        seen += games.seen();
+        // A single file without any is an error of its own; and one that was not read to its end misses nothing.
+        if taken > before || job.inputs.len() > 1 {
+            let numbers = job.wanted.numbers.as_ref().filter(|_| !is_full(taken));
+            say_missing(&file, numbers, games.seen(), progress);
         }
-        say_missing(&file, job.selection.as_ref(), seen, progress);
+    }
+    if taken == 0 {
+        return Err(nothing_selected(&job.inputs, seen));
     }
     out.flush().map_err(JobError::Write)?;
     Ok(partial)
+}
+
+/// Writes what stands before the games of a file.
+fn begin(job: &InspectJob, file: &str, out: &mut dyn Write) -> std::io::Result<()> {
+    match job.listing.header() {
+        Some(header) => writeln!(out, "{header}"),
+        None if job.inputs.len() > 1 => writeln!(out, "{file}"),
+        None => Ok(()),
+    }
 }
 
 fn line(game: &Game, out: &mut dyn Write) -> std::io::Result<()> {

@@ -53,8 +53,10 @@ pub enum JobError {
     Source(#[from] SourceError),
     #[error(transparent)]
     Output(#[from] OutputError),
-    #[error("{file}: none of the selected games is there, it has {games}")]
+    #[error("{file}: none of its games is selected, it has {games}")]
     NothingSelected { file: String, games: usize },
+    #[error("none of the games is selected, the {files} files have {games}")]
+    NothingSelectedInAny { files: usize, games: usize },
     #[error("{file}: game {game} has no position {moment}, it goes from {start} to {end}")]
     NoSuchMoment { file: String, game: usize, moment: Moment, start: String, end: String },
     #[error("{file}: game {game} has no position that is certain")]
@@ -154,6 +156,14 @@ fn say_variations(variations: &[Variation], file: &str, number: usize, progress:
             progress.say(&format!("{file}: game {number}, in a variation, {problem}"));
         }
         say_variations(&variation.variations, file, number, progress);
+    }
+}
+
+/// That none of so many games is selected, which are all that `inputs` have.
+fn nothing_selected(inputs: &[PathBuf], games: usize) -> JobError {
+    match inputs {
+        [input] => JobError::NothingSelected { file: shown(input), games },
+        _ => JobError::NothingSelectedInAny { files: inputs.len(), games },
     }
 }
 
