@@ -14,7 +14,7 @@
 //! | module | holds | may use |
 //! | --- | --- | --- |
 //! | [`notation`] | [`notation::Placement`]: pieces and squares of both players, in the thesis's letters | – |
-//! | [`game`] | reading PGN into games, with variations and what comments say; selection | notation |
+//! | [`game`] | reading PGN into games, with variations and what comments say; selection | notation, config |
 //! | [`timeline`] | frames: at time *t* a placement, the movers between squares and beside the board, each piece's identity, marks, clock, the camera's turn | game, notation, config |
 //! | [`config`] | `config.ini`, typed and range-checked | – |
 //! | [`assets`] | piece sets from TOML (`docs/piece-sets.md`), bitmaps, a font | config, geometry |

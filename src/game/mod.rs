@@ -23,6 +23,7 @@ mod select;
 mod source;
 mod start;
 mod tag_test;
+mod variant;
 mod variation;
 mod wanted;
 mod wildcard;
@@ -43,7 +44,8 @@ pub use wanted::{ParsePlyRangeError, PlyRange, Wanted};
 pub use word::{printable, shortened};
 
 use shakmaty::fen::Fen;
-use shakmaty::{Chess, Color, EnPassantMode, Move, Position, Setup};
+use shakmaty::variant::{Variant, VariantPosition};
+use shakmaty::{Color, EnPassantMode, Move, Position, Setup};
 
 use crate::notation::Placement;
 
@@ -61,6 +63,8 @@ pub struct Game {
     /// Whether it is known where the game starts; if not, no position of it can be shown, and
     /// `start` is empty.
     pub start_is_known: bool,
+    /// The rules that it is played by; Chess960 is standard chess.
+    pub variant: Variant,
     pub start: Setup,
     /// What comments say before the first move.
     pub start_notes: Notes,
@@ -79,7 +83,7 @@ pub struct Ply {
     /// In standard algebraic notation, with `+` or `#`.
     pub san: String,
     pub played: Move,
-    pub after: Chess,
+    pub after: VariantPosition,
     /// What comments and glyphs say of it.
     pub notes: Notes,
 }
@@ -135,6 +139,7 @@ impl Game {
             tags: Vec::new(),
             unread_tags: Vec::new(),
             start_is_known: false,
+            variant: Variant::Chess,
             start: Setup::empty(),
             start_notes: Notes::default(),
             plies: Vec::new(),
@@ -171,9 +176,9 @@ impl Game {
     }
 
     /// The position after `ply` half-moves, as far as it can be played.
-    pub fn position(&self, ply: usize) -> Option<Chess> {
+    pub fn position(&self, ply: usize) -> Option<VariantPosition> {
         match ply.checked_sub(1) {
-            None => start::position(&self.start).ok(),
+            None => start::position(self.variant, &self.start).ok(),
             Some(index) => self.plies.get(index).map(|ply| ply.after.clone()),
         }
     }
@@ -189,7 +194,7 @@ impl Game {
     /// capture is legal.
     pub fn fen(&self, ply: usize) -> String {
         match ply.checked_sub(1) {
-            None => start::fen(&self.start),
+            None => start::fen(self.variant, &self.start),
             Some(index) => {
                 Fen::from_position(&self.plies[index].after, EnPassantMode::Legal).to_string()
             }

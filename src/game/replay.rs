@@ -1,7 +1,8 @@
 //! Plays the moves of a scanned game and its variations, as far as they can be played.
 
 use shakmaty::san::{SanError, SanPlus};
-use shakmaty::{Chess, Color, Move, Position, Setup};
+use shakmaty::variant::{Variant, VariantPosition};
+use shakmaty::{Color, Move, Position, Setup};
 
 use super::line::{Line, Token};
 use super::movetext::{self, Reading, Written, tolerant};
@@ -20,7 +21,7 @@ pub fn replay(scanned: ScannedGame, number: usize) -> Game {
             main.problems.push(Problem::new(first.line, &first.text, what, true));
             None
         }
-        (Ok(setup), _) => Some(setup),
+        (Ok(start), _) => Some(start),
         (Err(refusal), _) => {
             main.problems.push(Problem::new(line, &refusal.token, &refusal.what, true));
             None
@@ -28,7 +29,9 @@ pub fn replay(scanned: ScannedGame, number: usize) -> Game {
     };
     let start_notes = main.notes.take().map(|notes| *notes).unwrap_or_default();
     let result = main.result.or_else(|| tag(&tags, "Result")).unwrap_or("*").to_owned();
-    let played = match start.as_ref().map(start::position) {
+    let start_is_known = start.is_some();
+    let (variant, start) = start.unwrap_or((Variant::Chess, Setup::empty()));
+    let played = match start_is_known.then(|| start::position(variant, &start)) {
         Some(Ok(position)) => {
             let shift = numbering_shift(&position, &main.tokens);
             Played::of(main, &position, 0, shift)
@@ -43,8 +46,9 @@ pub fn replay(scanned: ScannedGame, number: usize) -> Game {
         line,
         tags,
         unread_tags,
-        start_is_known: start.is_some(),
-        start: start.unwrap_or_else(Setup::empty),
+        start_is_known,
+        variant,
+        start,
         start_notes,
         plies,
         variations,
@@ -68,11 +72,15 @@ impl Played {
     /// Plays `line` and its variations from `start`, which is `ply` half-moves from the game's
     /// start. Its numbers are `shift` ahead of the position's. Calls itself as deep as variations
     /// lie within each other, which the scanner bounds.
-    fn of(line: Line, start: &Chess, ply: usize, shift: i64) -> Played {
+    fn of(line: Line, start: &VariantPosition, ply: usize, shift: i64) -> Played {
         let Line { mut tokens, movetext, variations, mut problems, .. } = line;
         let reading = movetext::read(&tokens, &movetext);
         let mut plies = Vec::with_capacity(tokens.len().min(USUAL_LENGTH));
-        problems.extend(play(start.clone(), &tokens, &reading, shift, &mut plies));
+        problems.extend(match start.clone() {
+            // Most games are of standard chess, which is told here, not at every question to the rules.
+            VariantPosition::Chess(start) => play(start, &tokens, &reading, shift, &mut plies),
+            start => play(start, &tokens, &reading, shift, &mut plies),
+        });
         for (ply, token) in plies.iter_mut().zip(&mut tokens) {
             ply.notes = token.notes.take().map(|notes| *notes).unwrap_or_default();
         }
@@ -116,8 +124,8 @@ impl Played {
 
 /// Plays move by move into `plies`; gives what stopped it. Where a number shows that a move is
 /// missing, the moves since the last number that fits are taken back: each may be another one's.
-fn play(
-    mut position: Chess,
+fn play<P: Position + Clone + Into<VariantPosition>>(
+    mut position: P,
     tokens: &[Token],
     reading: &Reading,
     shift: i64,
@@ -161,7 +169,7 @@ fn play(
         plies.push(Ply {
             san: san.to_string(),
             played,
-            after: position.clone(),
+            after: position.clone().into(),
             notes: Notes::default(),
         });
     }
@@ -172,7 +180,7 @@ fn play(
 
 /// What the numbers of the text are ahead of the position's. Texts count on from a FEN, from 1, or
 /// rightly from a FEN that says nothing but 1.
-fn numbering_shift(position: &Chess, tokens: &[Token]) -> i64 {
+fn numbering_shift(position: &VariantPosition, tokens: &[Token]) -> i64 {
     let counted = i64::from(position.fullmoves().get());
     match tokens.first().and_then(|token| token.number).map(i64::from) {
         Some(first) if first == 1 || counted == 1 => first - counted,
@@ -181,7 +189,7 @@ fn numbering_shift(position: &Chess, tokens: &[Token]) -> i64 {
 }
 
 /// The legal move that is meant, or a clause that says what is wrong.
-fn legal(position: &Chess, written: &Written) -> Result<Move, &'static str> {
+fn legal(position: &impl Position, written: &Written) -> Result<Move, &'static str> {
     if written.passes {
         return Err("is a null move, which no position can show");
     }

@@ -1,6 +1,6 @@
 //! What the board tells of a position: the move that led to it, check, and what somebody drew.
 
-use shakmaty::{CastlingSide, Chess, Move, Position};
+use shakmaty::{CastlingSide, Move, Position};
 
 use super::Marks;
 use crate::game::{Game, fen_position};
@@ -33,7 +33,7 @@ impl Marks {
     }
 }
 
-fn check(position: &Chess) -> Marks {
+fn check(position: &impl Position) -> Marks {
     let king = position.board().king_of(position.turn()).filter(|_| position.is_check());
     Marks { check: king, is_mate: position.is_checkmate(), ..Marks::default() }
 }
