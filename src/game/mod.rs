@@ -37,7 +37,7 @@ pub use player::{Players, PlayersError};
 pub use scan::{ScannedGame, Scanner};
 pub use select::{Absent, Moment, ParseMomentError, ParseSelectionError, Selection};
 pub use source::{Games, Source, SourceError};
-pub use start::fen_position;
+pub use start::{fen_in_hand, fen_position};
 pub use tag_test::{ParseTagTestError, TagTest};
 pub use variation::Branch;
 pub use wanted::{ParsePlyRangeError, PlyRange, Wanted};
@@ -45,7 +45,7 @@ pub use word::{printable, shortened};
 
 use shakmaty::fen::Fen;
 use shakmaty::variant::{Variant, VariantPosition};
-use shakmaty::{Color, EnPassantMode, Move, Position, Setup};
+use shakmaty::{Bitboard, ByColor, ByRole, Color, EnPassantMode, Move, Position, Setup};
 
 use crate::notation::Placement;
 
@@ -180,6 +180,23 @@ impl Game {
         match ply.checked_sub(1) {
             None => start::position(self.variant, &self.start).ok(),
             Some(index) => self.plies.get(index).map(|ply| ply.after.clone()),
+        }
+    }
+
+    /// What the players have in hand after `ply` half-moves, where the rules let them drop it.
+    pub fn in_hand(&self, ply: usize) -> Option<ByColor<ByRole<u8>>> {
+        match ply.checked_sub(1) {
+            _ if self.variant != Variant::Crazyhouse => None,
+            None => Some(self.start.pockets.unwrap_or_default()),
+            Some(index) => self.plies[index].after.pockets().copied(),
+        }
+    }
+
+    /// Where pieces stand after `ply` half-moves that were pawns, and become ones again when they are captured.
+    pub fn promoted(&self, ply: usize) -> Bitboard {
+        match ply.checked_sub(1) {
+            None => self.start.promoted,
+            Some(index) => self.plies[index].after.promoted(),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use shakmaty::fen::Fen;
 use shakmaty::variant::{Variant, VariantPosition};
-use shakmaty::{CastlingMode, EnPassantMode, Position, PositionError, Setup};
+use shakmaty::{ByColor, ByRole, CastlingMode, EnPassantMode, Position, PositionError, Setup};
 
 use super::tag;
 use super::variant::Rules;
@@ -62,6 +62,11 @@ pub fn position(variant: Variant, setup: &Setup) -> Result<VariantPosition, Stri
 pub fn fen_position(fen: &str) -> Option<VariantPosition> {
     let fen: Fen = fen.trim().parse().ok()?;
     position(told_by(fen.as_setup()), fen.as_setup()).ok()
+}
+
+/// What a FEN says that players have in hand, where it does.
+pub fn fen_in_hand(fen: &str) -> Option<ByColor<ByRole<u8>>> {
+    fen.trim().parse::<Fen>().ok()?.as_setup().pockets
 }
 
 /// `setup` as a FEN, cleaned by the rules where it is a position that can be played.

@@ -3,7 +3,7 @@
 use super::wording;
 use crate::caption::{Card, Content, Gauge, Player};
 use crate::config::Captions;
-use crate::game::{Ending, Eval, Game};
+use crate::game::{Eval, Game};
 use crate::notation::Color;
 use crate::timeline::{self, Dials, Frame, digital};
 
@@ -96,8 +96,8 @@ fn gauges(game: &Game) -> Vec<Gauge> {
         };
         gauges.push(last.clone());
     }
-    if let (Some(Ending::Checkmate), Some(gauge)) = (game.ending(), gauges.last_mut()) {
-        *gauge = Gauge::mated(game.turn(game.plies.len()));
+    if let (Some(winner), Some(gauge)) = (game.winner(), gauges.last_mut()) {
+        *gauge = Gauge::mated(winner.other());
     }
     gauges
 }

@@ -48,6 +48,7 @@ impl Showing {
         Reach {
             moves: self.animate,
             captured: self.keeps_captured(config),
+            columns: 0,
             orbit: [turns.into_iter().fold(0.0, f64::min), turns.into_iter().fold(0.0, f64::max)],
         }
     }

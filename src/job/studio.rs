@@ -74,10 +74,7 @@ pub(super) fn stage(settings: &PictureSettings, reach: Reach) -> Result<Stage, J
 }
 
 /// The room that pieces take in frames that reach as far as `reach`, if any is needed.
-pub(super) fn bodies(settings: &PictureSettings, reach: Reach) -> Result<Bodies, JobError> {
-    if !reach.needs_bodies() {
-        return Ok(Bodies::default());
-    }
+pub(super) fn bodies(settings: &PictureSettings) -> Result<Bodies, JobError> {
     Ok(scene::bodies(&Assets::load(&settings.config, &settings.set)?.set))
 }
 

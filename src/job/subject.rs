@@ -10,7 +10,7 @@ use super::{JobError, Progress, Showing, say_problems, shown};
 use crate::caption::Content;
 use crate::game::{Game, Moment, Source};
 use crate::notation::Placement;
-use crate::timeline::{Frame, Marks, Timeline};
+use crate::timeline::{Frame, Timeline};
 
 /// Where a position comes from.
 #[derive(Clone, Debug)]
@@ -40,9 +40,8 @@ impl Subject {
     ) -> Result<Shot, JobError> {
         let (file, number, at) = match self {
             Subject::Placement { placement, fen } => {
-                let marks = Marks::of_fen(fen);
                 return Ok(Shot {
-                    frame: Frame { marks, ..Frame::still(*placement) },
+                    frame: Frame::of_fen(*placement, fen, &bodies(settings)?),
                     texts: vec![("FEN", fen.clone())],
                     content: captions::of_fen(fen, settings.config.captions),
                     is_whole: true,
@@ -102,7 +101,7 @@ fn shot(
     })?;
     let config = &settings.config;
     let showing = Showing::default();
-    let script = showing.script(config, bodies(settings, showing.reach(config))?);
+    let script = showing.script(config, bodies(settings)?);
     // Of the whole game: a camera's path goes through all of it.
     let timeline = Timeline::new(game, 0, game.plies.len(), &script);
     let timeline = timeline.map_err(|error| JobError::Path { file, game: game.number, error })?;

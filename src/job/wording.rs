@@ -68,13 +68,19 @@ pub fn result(game: &Game) -> String {
 /// How the game ended, if the board or the tag `Termination` says it.
 pub fn ending(game: &Game) -> String {
     // A result that contradicts the board has another reason, which nobody tells.
-    let is_meant =
-        |ending: &Ending| (game.result == "1/2-1/2") != matches!(ending, Ending::Checkmate);
+    let is_meant = |ending: &Ending| (game.result == "1/2-1/2") != ending.is_decisive();
     let by_rule = game.ending().filter(|_| game.is_whole()).filter(is_meant);
     let by_rule = by_rule.map(|ending| match ending {
         Ending::Checkmate => "Checkmate",
         Ending::Stalemate => "Stalemate",
         Ending::InsufficientMaterial => "Neither side can mate",
+        Ending::Explosion => "The king is blown up",
+        Ending::NothingToMove => "No moves left: won",
+        Ending::ThirdCheck => "Third check",
+        Ending::Hill => "The king is on the hill",
+        Ending::Goal => "The king has reached the goal",
+        Ending::BothAtGoal => "Both kings have reached the goal",
+        Ending::HordeTaken => "The horde is taken",
     });
     if let Some(ending) = by_rule {
         return ending.to_owned();

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::{DVec2, DVec3};
+use glam::{DAffine3, DVec2, DVec3};
 
 use super::board::board;
 use super::bodies::bodies;
@@ -44,6 +44,16 @@ pub enum StageError {
     FocusBehind,
 }
 
+/// More columns of pieces beside the board than this are not cared for: all pieces in hand that a game can have
+/// take fewer.
+const MOST_COLUMNS: u32 = 8;
+
+/// The camera, and where the clock stands, for pictures that have to show as much.
+struct Outlook {
+    camera: Camera,
+    clock: DAffine3,
+}
+
 /// What stays the same from frame to frame: the set, all that is no piece, lights, camera and
 /// background.
 pub struct Stage {
@@ -56,7 +66,8 @@ pub struct Stage {
     clock: Option<Clock>,
     paints: Paints,
     lights: Vec<Light>,
-    camera: Camera,
+    /// By how many columns of pieces beside the board frames have to show.
+    outlooks: Vec<Outlook>,
     bodies: Bodies,
     lens: config::Camera,
     background: Option<Rgb>,
@@ -78,19 +89,25 @@ impl Stage {
         let materials = Materials { config, bitmaps: &assets.bitmaps };
         let scheme = config.scheme();
         let set = assets.set.clone();
-        let bodies = if reach.needs_bodies() { bodies(&set) } else { Bodies::default() };
+        let bodies = bodies(&set);
         let man = view::extent(&set);
         let room = view::Room { man, bodies: &bodies };
-        let camera = view::camera(config, room, reach);
-        let camera = camera.ok_or(StageError::FocusBehind)?;
+        let outlook = |columns: u32| {
+            let reach = Reach { columns, ..reach };
+            let camera = view::camera(config, room, reach).ok_or(StageError::FocusBehind)?;
+            let clock = view::clock_place(config, camera.axes()[2], &bodies, reach);
+            Ok(Outlook { camera, clock })
+        };
+        let outlooks: Vec<Outlook> =
+            (0..=MOST_COLUMNS).map(outlook).collect::<Result<_, StageError>>()?;
+        // All of them look the same way.
+        let camera = outlooks[0].camera;
         let near = Side::near(&camera);
         // A camera that goes to both players reads coordinates from both sides.
         let both = config.camera.view == View::Mover;
         let mut fixed = board(&scheme, &materials, Readers { near, both })?;
         let has_clock = config.clock.has_place();
-        let clock = has_clock.then(|| {
-            Clock::new(&materials, view::clock_place(config, camera.axes()[2], &bodies, reach))
-        });
+        let clock = has_clock.then(|| Clock::new(&materials));
         for settings in &config.models {
             fixed.push(model(settings, &materials)?);
         }
@@ -111,7 +128,7 @@ impl Stage {
                 let turn = if config.room.turns { camera.azimuth() } else { 0.0 };
                 Room::new(&config.room, &config.lights, turn)
             }),
-            camera,
+            outlooks,
             bodies,
             lens: config.camera.clone(),
             background: scheme.background,
@@ -139,13 +156,15 @@ impl Stage {
         if let Some(squares) = fixed.first_mut() {
             self.paints.paint(squares, &frame.marks, &frame.placement);
         }
-        let clock = self.clock.iter().flat_map(|clock| clock.objects(frame.dials.as_ref()));
+        let outlook = &self.outlooks[frame.columns.min(MOST_COLUMNS) as usize];
+        let clock = self.clock.iter();
+        let clock = clock.flat_map(|clock| clock.objects(&outlook.clock, frame.dials.as_ref()));
         fixed.extend(clock);
         Scene {
             objects: fixed.into_iter().chain(pieces).collect(),
             cells: self.cells,
             lights: self.lights.clone(),
-            camera: self.camera(&frame.gaze),
+            camera: self.camera(outlook, &frame.gaze),
             background: self.background,
             room: self.room.clone(),
             max_depth: self.max_depth,
@@ -155,13 +174,13 @@ impl Stage {
         }
     }
 
-    /// The room that pieces and board take, where any move or stand beside the board.
+    /// The room that pieces and board take.
     pub fn bodies(&self) -> &Bodies {
         &self.bodies
     }
 
     /// The camera with a gaze.
-    fn camera(&self, gaze: &Gaze) -> Camera {
+    fn camera(&self, outlook: &Outlook, gaze: &Gaze) -> Camera {
         let Gaze { orbit, lean: [across, away], pose } = gaze;
         let camera = match pose {
             // A lens that shows nothing sharp ahead is none.
@@ -170,7 +189,7 @@ impl Stage {
                 let pinhole = view::posed(pose, orientation);
                 pinhole.focused(aperture / 2.0, focus).unwrap_or(pinhole)
             }
-            None => self.camera,
+            None => outlook.camera,
         };
         let lean = DVec3::new(*across, 0.0, *away) * (LEAN * SQUARE);
         camera.moved(lean).orbited(MIDDLE, *orbit)

@@ -20,14 +20,16 @@ pub struct Reach {
     pub moves: bool,
     /// Whether captured pieces stand beside the board.
     pub captured: bool,
+    /// For how many columns of pieces beside the board there is to be room at least, at either side.
+    pub columns: u32,
     /// How far the camera turns about the board at most, clockwise (below 0) and anticlockwise, in degrees.
     pub orbit: [f64; 2],
 }
 
 impl Reach {
-    /// Whether it matters how much room pieces take.
-    pub fn needs_bodies(&self) -> bool {
-        self.moves || self.captured
+    /// Whether there is to be room beside the board.
+    pub fn is_wide(&self) -> bool {
+        self.moves || self.captured || self.columns > 0
     }
 }
 
@@ -152,8 +154,8 @@ fn points(config: &Config, room: Room, reach: Reach, forward: DVec3) -> Vec<DVec
     };
     let outer = 3.5 * SQUARE + radius;
     let mut boxes = vec![board::bounds(), block(outer, outer, 0.0, man.max.y)];
-    if reach.needs_bodies() {
-        let [beside, along] = tray_reach(bodies);
+    if reach.is_wide() {
+        let [beside, along] = tray_reach(bodies, reach.columns);
         let [beside, along, table, capturable, ceiling] =
             [beside, along, bodies.table, bodies.tallest()[1], ceiling(bodies)]
                 .map(|squares| squares * SQUARE);
@@ -186,7 +188,10 @@ fn points(config: &Config, room: Room, reach: Reach, forward: DVec3) -> Vec<DVec
 pub fn clock_place(config: &Config, forward: DVec3, bodies: &Bodies, reach: Reach) -> DAffine3 {
     // What goes to both players' sides sees it as well from each.
     let forward = if config.camera.view == View::Mover { forward * DVec3::X } else { forward };
-    clock::place(forward, if reach.needs_bodies() { tray_reach(bodies)[0] * SQUARE } else { 0.0 })
+    clock::place(
+        forward,
+        if reach.is_wide() { tray_reach(bodies, reach.columns)[0] * SQUARE } else { 0.0 },
+    )
 }
 
 #[cfg(test)]
@@ -235,7 +240,7 @@ mod tests {
     fn named_views_hold_all_that_there_is_and_see_the_clocks_face_at_any_aspect() {
         let bodies = bodies();
         let still = Reach::default();
-        let film = Reach { moves: true, captured: true, orbit: [0.0; 2] };
+        let film = Reach { moves: true, captured: true, ..still };
         // The frame's corner, the top of a king on a8 and on h1, the clock's corner, a queen that is
         // carried off over a king, one that stands beside the board.
         let points: [(Reach, bool, DVec3); 6] = [

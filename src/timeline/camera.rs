@@ -70,8 +70,7 @@ impl Track {
             Lead::Mover { turn } => LeadTrack::Mover(game.turn(first), *turn),
             Lead::Piece => {
                 let target = |ply: usize| {
-                    let Motion { steps, dropped, .. } = Motion::new(&game.plies[ply].played);
-                    let to = steps.first().map(|step| step.to).or(dropped);
+                    let to = Motion::new(game, ply + 1).target();
                     to.map(Spot::on).map_or([0.0, 0.0], |spot| [spot.file - 3.5, spot.rank - 3.5])
                 };
                 LeadTrack::Piece((first..last).map(target).collect())

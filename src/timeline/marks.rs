@@ -35,7 +35,9 @@ impl Marks {
 
 fn check(position: &impl Position) -> Marks {
     let king = position.board().king_of(position.turn()).filter(|_| position.is_check());
-    Marks { check: king, is_mate: position.is_checkmate(), ..Marks::default() }
+    // A third check, say, leaves no moves either.
+    let is_mate = position.is_checkmate() && !position.is_variant_end();
+    Marks { check: king, is_mate, ..Marks::default() }
 }
 
 /// The squares that a move leaves and reaches; a single one where nothing comes from another square.

@@ -3,6 +3,7 @@
 //! A [`Timeline`] gives frame `i` without the ones before it, so that any part of a film can be
 //! made alone. Times are seconds from the film's beginning.
 
+mod beside;
 mod bodies;
 mod camera;
 mod dials;
@@ -27,9 +28,10 @@ pub use tray::reach as tray_reach;
 
 use std::sync::OnceLock;
 
-use crate::game::Game;
+use crate::game::{Game, fen_in_hand};
 use crate::notation::Placement;
 
+use beside::Beside;
 use camera::Track;
 use dials::Clock;
 use film::{Moment, Schedule, paced};
@@ -52,8 +54,12 @@ pub struct Frame {
     pub identities: Identities,
     /// Pieces on their way, or leaving the board; the one whose move it is comes first.
     pub movers: Vec<Mover>,
-    /// Captured pieces that stand beside the board, in the order of their capture.
+    /// Captured pieces that stand beside the board, in the order of their capture; or those that players have in
+    /// hand.
     pub taken: Vec<Mover>,
+    /// For how many columns of them, at either side, pictures leave room: the same in all of a game, 0 where none
+    /// are shown.
+    pub columns: u32,
     pub marks: Marks,
     /// Nothing where there is no clock to be shown.
     pub dials: Option<Dials>,
@@ -72,10 +78,24 @@ impl Frame {
             identities: Identities::default(),
             movers: Vec::new(),
             taken: Vec::new(),
+            columns: 0,
             marks: Marks::default(),
             dials: None,
             gaze: Gaze::default(),
             card: None,
+        }
+    }
+
+    /// The position of a FEN with the pieces of `placement`: check, where it says who is to move and the position can
+    /// be played, and what players have in hand, where it tells.
+    pub fn of_fen(placement: Placement, fen: &str, bodies: &Bodies) -> Frame {
+        let frame = Frame { marks: Marks::of_fen(fen), ..Frame::still(placement) };
+        match fen_in_hand(fen) {
+            Some(in_hand) => {
+                let beside = Beside::in_hand(&in_hand, &placement);
+                Frame { taken: beside.movers(bodies), columns: beside.columns(bodies), ..frame }
+            }
+            None => frame,
         }
     }
 
@@ -104,6 +124,8 @@ pub struct Script {
 /// All frames of a game, or of a part of it.
 pub struct Timeline<'a> {
     script: &'a Script,
+    /// The columns beside the board that pictures leave room for.
+    columns: u32,
     positions: Vec<Position>,
     /// What the board tells of each of them.
     marks: Vec<Marks>,
@@ -132,10 +154,14 @@ impl<'a> Timeline<'a> {
         script: &'a Script,
     ) -> Result<Timeline<'a>, PathError> {
         let schedule = schedule(game, first, last, script.film);
-        let mut position = Position::new(game.placement(0));
+        let bodies = &script.bodies;
+        let mut position = Position::new(game, bodies);
+        let in_hand = matches!(position.beside, Beside::InHand(_));
+        let shows_beside = script.keeps_captured || in_hand;
         let mut timeline = Timeline {
             script,
             positions: Vec::with_capacity(last + 1 - first),
+            columns: if shows_beside { position.beside.columns(bodies) } else { 0 },
             marks: (first..=last).map(|ply| marks(game, ply)).collect(),
             motions: Vec::with_capacity(last - first),
             plans: vec![OnceLock::new(); last - first],
@@ -145,18 +171,23 @@ impl<'a> Timeline<'a> {
             schedule,
             clock: script.has_clock.then(|| Clock::new(game, first, last)),
         };
-        for ply in 0..=last {
+        // Whatever part of a game is shown, it has room for all that is ever in hand.
+        let end = if in_hand { game.plies.len() } else { last };
+        for ply in 0..=end {
             if ply > 0 {
-                let motion = Motion::new(&game.plies[ply - 1].played);
+                let motion = Motion::new(game, ply);
                 position = motion.after(&position, game.placement(ply));
                 if !script.keeps_captured {
-                    position.taken.clear();
+                    position.beside.clear();
                 }
-                if ply > first {
+                if ply > first && ply <= last {
                     timeline.motions.push(motion);
                 }
             }
-            if ply >= first {
+            if in_hand {
+                timeline.columns = timeline.columns.max(position.beside.columns(bodies));
+            }
+            if (first..=last).contains(&ply) {
                 timeline.positions.push(position.clone());
             }
         }
@@ -224,7 +255,10 @@ impl<'a> Timeline<'a> {
                     .get_or_init(|| Plan::new(&self.motions[moves], position, &self.script.bodies));
                 let (placement, movers) = plan.under_way(position, passed);
                 let marks = self.marks[moves + 1].under_way();
-                Frame { placement, movers, marks, ..self.at_rest(moves) }
+                let mut frame = Frame { placement, movers, marks, ..self.at_rest(moves) };
+                let Frame { taken, movers, .. } = &mut frame;
+                taken.retain(|held| movers.iter().all(|mover| mover.identity != held.identity));
+                frame
             }
         }
     }
@@ -234,7 +268,8 @@ impl<'a> Timeline<'a> {
         Frame {
             ply: self.first_ply + moves,
             identities: position.identities,
-            taken: tray::movers(&position.taken, &self.script.bodies),
+            taken: position.beside.movers(&self.script.bodies),
+            columns: self.columns,
             marks: self.marks[moves].clone(),
             ..Frame::still(position.placement)
         }

@@ -1,5 +1,8 @@
 //! Pieces with an identity, on squares and off them.
 
+use super::beside::Beside;
+use super::bodies::Bodies;
+use crate::game::Game;
 use crate::notation::{Piece, Placement, Square};
 
 /// A place on, above or beside the board, in squares: (0, 0) is the middle of a1, files go to the
@@ -71,11 +74,10 @@ impl Identities {
 pub struct Position {
     pub placement: Placement,
     pub identities: Identities,
-    /// Those that are captured, in the order of their capture.
-    pub taken: Vec<Taken>,
+    pub beside: Beside,
 }
 
-/// A captured piece.
+/// A piece that has left the board, or waits to come there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Taken {
     pub piece: Piece,
@@ -84,7 +86,12 @@ pub struct Taken {
 
 impl Position {
     /// The position that a game starts from.
-    pub fn new(placement: Placement) -> Position {
-        Position { placement, identities: Identities::default(), taken: Vec::new() }
+    pub fn new(game: &Game, bodies: &Bodies) -> Position {
+        let placement = game.placement(0);
+        let beside = match game.in_hand(0) {
+            Some(in_hand) => Beside::in_hand(&in_hand, &placement),
+            None => Beside::captured(&placement, bodies),
+        };
+        Position { placement, identities: Identities::default(), beside }
     }
 }

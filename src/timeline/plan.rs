@@ -6,9 +6,8 @@
 
 use super::bodies::{Bodies, Envelope};
 use super::flight::{Flight, ease};
-use super::motion::{Motion, Step};
+use super::motion::{Captured, Drop, Motion, Step};
 use super::pieces::{Mover, Position, Spot, Taken};
-use super::tray;
 use crate::notation::{Piece, Placement, Square};
 
 /// How far moving pieces keep from others at least, in squares, unless they stand nearer at rest.
@@ -45,6 +44,8 @@ const HOP: Manner =
 /// A captured piece's way out.
 const LEAVE: Manner =
     Manner { least: 0.6, shapes: [(0.4, 0.12), (0.35, 0.2), (0.3, 0.3)], settles: true };
+/// The way from a hand to a square.
+const COME: Manner = Manner { settles: false, ..LEAVE };
 
 /// When who makes way ends, and when the other one begins and how early it has to be there.
 type Times = (f64, f64, f64);
@@ -59,6 +60,16 @@ const CAPTURES: [Times; 6] = [
 ];
 /// The rook has gone up before the king comes, and comes down behind it.
 const CASTLINGS: [Times; 3] = [(1.0, 0.0, 1.0), (1.0, 0.15, 0.85), (1.0, 0.3, 0.7)];
+
+/// Of a capture that blows pieces up: when who is captured has shrunk away, the times at which who captures
+/// may set out, and when he has arrived and all the others go.
+const CLEARED: f64 = 0.4;
+const STRIKES: [f64; 5] = [0.0, 0.1, 0.2, 0.3, CLEARED];
+const STRUCK: f64 = 0.7;
+
+/// How far pieces that are blown up rise while they shrink away, in squares, and their least size.
+const BLAST: f64 = 0.5;
+const LEAST: f64 = 0.04;
 
 /// How far above the tallest piece pieces are lifted at most, in squares.
 const ABOVE: f64 = 0.1;
@@ -75,11 +86,26 @@ pub struct Plan(Vec<Leg>);
 /// The way of one piece.
 #[derive(Clone, Debug)]
 struct Leg {
-    from: Square,
+    /// The square that it leaves, unless it comes from beside the board.
+    from: Option<Square>,
     piece: Piece,
     identity: Square,
     flight: Flight,
-    becomes: Option<Piece>,
+    fate: Fate,
+}
+
+/// What is to become of a piece that moves.
+#[derive(Clone, Copy, Debug)]
+enum Fate {
+    Stays,
+    /// Once it has arrived it gives way to another one.
+    Becomes(Piece),
+    /// It shrinks away between two times, and rises so far.
+    Vanishes {
+        begin: f64,
+        end: f64,
+        rises: f64,
+    },
 }
 
 /// A piece that is to go somewhere.
@@ -92,13 +118,17 @@ struct Task<'a> {
 impl Plan {
     /// The ways of `motion`, which leaves the position `before`.
     pub fn new(motion: &Motion, before: &Position, bodies: &Bodies) -> Plan {
+        if !motion.exploded.is_empty() {
+            return Plan::explosion(motion, before, bodies);
+        }
         let mut tasks: Vec<Task> = Vec::new();
         // Who makes way comes last.
         tasks.extend(motion.steps.iter().filter_map(|step| go(step, before, bodies)));
-        let captured = motion.captured.and_then(|square| leave(square, before, bodies));
+        tasks.extend(motion.dropped.and_then(|drop| come(drop, before, bodies)));
+        let captured = motion.captured.and_then(|captured| leave(captured, before, bodies));
         let times: &[Times] = if captured.is_some() { &CAPTURES } else { &CASTLINGS };
         tasks.extend(captured);
-        let field = Field::new(&tasks, before, bodies);
+        let field = Field::new(tasks.iter().map(|task| &task.leg), before, bodies);
         let mut tasks = tasks.into_iter();
         let legs = match (tasks.next(), tasks.next()) {
             (Some(alone), None) => vec![field.alone(&alone)],
@@ -108,19 +138,62 @@ impl Plan {
         Plan(legs)
     }
 
+    /// Who is captured shrinks away, and who captured him with all the others that are blown up.
+    fn explosion(motion: &Motion, before: &Position, bodies: &Bodies) -> Plan {
+        let at = |square, fate| {
+            let flight = level(Spot::on(square), Spot::on(square));
+            let piece = before.placement.get(square)?;
+            let identity = before.identities.get(square);
+            Some(Leg { from: Some(square), piece, identity, flight, fate })
+        };
+        let fate = Fate::Vanishes { begin: STRUCK, end: 1.0, rises: BLAST };
+        let step = motion.steps.first();
+        let mut legs = Vec::new();
+        if let Some(step) = step
+            && let Some(mut main) = go(step, before, bodies)
+        {
+            (main.leg.fate, main.leg.flight.end) = (fate, STRUCK);
+            let victim = at(step.to, Fate::Vanishes { begin: 0.0, end: CLEARED, rises: 0.0 });
+            let gone = victim.iter().chain([&main.leg]);
+            let field = Field::new(gone, before, bodies);
+            let free = field.alone(&main);
+            let flight = victim.as_ref().map_or(free.flight, |victim| {
+                let begin = STRIKES.iter().find(|begin| {
+                    let flight = Flight { begin: **begin, ..free.flight };
+                    strikes_free(&flight, main.envelope, victim, bodies)
+                });
+                Flight { begin: *begin.unwrap_or(&CLEARED), ..free.flight }
+            });
+            legs.push(Leg { flight, ..free });
+            legs.extend(victim);
+        }
+        let ends = |square: &&Square| step.is_none_or(|s| s.from != **square && s.to != **square);
+        legs.extend(motion.exploded.iter().filter(ends).filter_map(|square| at(*square, fate)));
+        Plan(legs)
+    }
+
     /// What stands and what moves when the part `passed` (0 to 1) of the move's time is over.
     pub fn under_way(&self, before: &Position, passed: f64) -> (Placement, Vec<Mover>) {
         let mut standing = before.placement;
         let mut movers = Vec::new();
-        for Leg { from, piece, identity, flight, becomes } in &self.0 {
-            standing.set(*from, None);
+        for leg in &self.0 {
+            let Leg { from, piece, identity, flight, fate } = leg;
+            if let Some(from) = from {
+                standing.set(*from, None);
+            }
             let spot = flight.at(passed);
             let mut add = |piece, size| {
                 movers.push(Mover { piece, identity: *identity, spot, size });
             };
-            match becomes {
-                None => add(*piece, 1.0),
-                Some(becomes) => {
+            match fate {
+                Fate::Stays => add(*piece, 1.0),
+                Fate::Vanishes { rises, .. } => {
+                    let Some(size) = leg.size(passed) else { continue };
+                    let height = spot.height + rises * (1.0 - size);
+                    let spot = Spot { height, ..spot };
+                    movers.push(Mover { piece: *piece, identity: *identity, spot, size });
+                }
+                Fate::Becomes(becomes) => {
                     // The pawn shrinks away, and the other one grows where it stood.
                     let share = (passed - ARRIVED) / (1.0 - ARRIVED);
                     if share < 0.5 {
@@ -135,27 +208,62 @@ impl Plan {
     }
 }
 
+impl Leg {
+    /// How large a piece that vanishes is, as a share of its own size; nothing once it is gone.
+    fn size(&self, passed: f64) -> Option<f64> {
+        let Fate::Vanishes { begin, end, .. } = self.fate else {
+            return Some(1.0);
+        };
+        let share = (passed - begin) / (end - begin);
+        (share < 1.0).then(|| (1.0 - ease(share)).max(LEAST))
+    }
+}
+
+/// Whether a piece on its way keeps clear of one that shrinks away, whatever their heights.
+fn strikes_free(flight: &Flight, envelope: &Envelope, victim: &Leg, bodies: &Bodies) -> bool {
+    let radius = bodies.of(victim.piece.role).radius();
+    looks().all(|passed| {
+        let reach = victim.size(passed).map(|size| radius * size + envelope.radius() + CLEAR);
+        reach.is_none_or(|reach| flight.at(passed).apart(victim.flight.from) >= reach)
+    })
+}
+
 /// The task of a piece that goes from a square to another one.
 fn go<'a>(step: &Step, before: &Position, bodies: &'a Bodies) -> Option<Task<'a>> {
     let piece = before.placement.get(step.from)?;
     let manner = if step.hops { HOP } else { GLIDE };
     let end = if step.becomes.is_some() { ARRIVED } else { 1.0 };
     let flight = Flight { end, ..level(Spot::on(step.from), Spot::on(step.to)) };
-    let becomes = step.becomes.map(|role| Piece { role, ..piece });
-    let leg =
-        Leg { from: step.from, piece, identity: before.identities.get(step.from), flight, becomes };
+    let fate = step.becomes.map_or(Fate::Stays, |role| Fate::Becomes(Piece { role, ..piece }));
+    let identity = before.identities.get(step.from);
+    let leg = Leg { from: Some(step.from), piece, identity, flight, fate };
     Some(Task { leg, envelope: bodies.of(piece.role), manner })
 }
 
-/// The task of a captured piece.
-fn leave<'a>(square: Square, before: &Position, bodies: &'a Bodies) -> Option<Task<'a>> {
-    let piece = before.placement.get(square)?;
-    let identity = before.identities.get(square);
-    let taken = [&before.taken[..], &[Taken { piece, identity }]].concat();
-    let (_, place) = tray::places(&taken, bodies).last()?;
-    let flight = level(Spot::on(square), place);
-    let leg = Leg { from: square, piece, identity, flight, becomes: None };
+/// The task of a captured piece. In a hand it becomes one of who has it there.
+fn leave<'a>(captured: Captured, before: &Position, bodies: &'a Bodies) -> Option<Task<'a>> {
+    let Captured { on, held } = captured;
+    let piece = before.placement.get(on)?;
+    let identity = before.identities.get(on);
+    let mut beside = before.beside.clone();
+    beside.add(Taken { piece: held.unwrap_or(piece), identity });
+    let places = beside.places(bodies);
+    let (_, place) = places.iter().find(|(taken, _)| taken.identity == identity)?;
+    let end = if held.is_some() { ARRIVED } else { 1.0 };
+    let flight = Flight { end, ..level(Spot::on(on), *place) };
+    let fate = held.map_or(Fate::Stays, Fate::Becomes);
+    let leg = Leg { from: Some(on), piece, identity, flight, fate };
     Some(Task { leg, envelope: bodies.of(piece.role), manner: LEAVE })
+}
+
+/// The task of a piece that comes from a hand.
+fn come<'a>(drop: Drop, before: &Position, bodies: &'a Bodies) -> Option<Task<'a>> {
+    let Taken { piece, identity } = before.beside.next(drop.piece)?;
+    let places = before.beside.places(bodies);
+    let (_, place) = places.iter().find(|(held, _)| held.identity == identity)?;
+    let flight = level(*place, Spot::on(drop.to));
+    let leg = Leg { from: None, piece, identity, flight, fate: Fate::Stays };
+    Some(Task { leg, envelope: bodies.of(piece.role), manner: COME })
 }
 
 fn level(from: Spot, to: Spot) -> Flight {
@@ -171,14 +279,21 @@ struct Field<'a> {
 }
 
 impl<'a> Field<'a> {
-    fn new(tasks: &[Task], before: &Position, bodies: &'a Bodies) -> Field<'a> {
-        let stays = |square: &Square| tasks.iter().all(|task| task.leg.from != *square);
-        let standing = before.placement.iter().filter(|(square, _)| stays(square));
+    /// All of `before` but those that go the ways of `legs`.
+    fn new<'b>(
+        legs: impl Iterator<Item = &'b Leg> + Clone,
+        before: &Position,
+        bodies: &'a Bodies,
+    ) -> Field<'a> {
+        let stays = |identity: Square| legs.clone().all(|leg| leg.identity != identity);
+        let standing = before.placement.iter();
+        let standing = standing.filter(|(square, _)| stays(before.identities.get(*square)));
         let standing = standing.map(|(square, piece)| (bodies.of(piece.role), Spot::on(square)));
-        let taken = tray::places(&before.taken, bodies);
-        let taken = taken.map(|(taken, spot)| (bodies.of(taken.piece.role), spot));
+        let beside = before.beside.places(bodies).into_iter();
+        let beside = beside.filter(|(taken, _)| stays(taken.identity));
+        let beside = beside.map(|(taken, spot)| (bodies.of(taken.piece.role), spot));
         Field {
-            standing: standing.chain(taken).collect(),
+            standing: standing.chain(beside).collect(),
             edge: bodies.edge,
             ceiling: ceiling(bodies),
         }
@@ -197,7 +312,7 @@ impl<'a> Field<'a> {
         let with = |(ends, begins, there): &Times| {
             let (begin, end) = (begins * free.flight.end, there * free.flight.end);
             let (ends, main) = (*ends, Flight { begin, end, ..free.flight });
-            ways.iter().map(move |way| (Flight { end: ends, ..*way }, main))
+            ways.iter().map(move |way| (Flight { end: ends * way.end, ..*way }, main))
         };
         let pairs: Vec<(Flight, Flight)> = times.iter().flat_map(with).collect();
         let are_apart = |(way, flight): &&(Flight, Flight)| {

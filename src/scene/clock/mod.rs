@@ -82,7 +82,6 @@ pub fn corners(place: &DAffine3) -> [DVec3; 8] {
 /// The clock of a stage.
 pub struct Clock {
     settings: config::Clock,
-    place: DAffine3,
     /// [`CASE`], [`PLATE`], [`PIVOT`] and [`ROCKER`]: the same ones in all pictures, so that they are known again.
     solids: [Arc<dyn Solid>; 4],
     case: Surface,
@@ -98,11 +97,11 @@ pub struct Clock {
 const FACES: usize = 144;
 
 impl Clock {
-    /// A clock at a [`place`].
+    /// A clock as the settings have it.
     ///
     /// # Errors
     /// When the settings name a material that is not there.
-    pub fn new(materials: &Materials, place: DAffine3) -> Result<Clock, MaterialError> {
+    pub fn new(materials: &Materials) -> Result<Clock, MaterialError> {
         let settings = materials.config.clock.clone();
         let [case, brass] = materials.config.clock.materials();
         Ok(Clock {
@@ -111,19 +110,18 @@ impl Clock {
             filter: materials.config.render.filter,
             is_linear: materials.is_linear(),
             settings,
-            place,
             solids: [CASE, PLATE, PIVOT, ROCKER].map(|solid| Arc::new(solid) as Arc<dyn Solid>),
             painted: Mutex::default(),
         })
     }
 
-    /// Its bodies, when a frame shows `dials`; none where there is no clock for it.
-    pub fn objects(&self, dials: Option<&Dials>) -> Vec<Object> {
+    /// Its bodies at a [`place`], when a frame shows `dials`; none where there is no clock for it.
+    pub fn objects(&self, place: &DAffine3, dials: Option<&Dials>) -> Vec<Object> {
         let Some([white, black]) = readings(&self.settings, dials) else {
             return Vec::new();
         };
         // From in front of the face, its own z lies to the right; White's dial is on White's side.
-        let white_is_left = self.place.transform_vector3(DVec3::Z).z > 0.0;
+        let white_is_left = place.transform_vector3(DVec3::Z).z > 0.0;
         let [left, right] = if white_is_left { [white, black] } else { [black, white] };
         let tilt = match (left.is_running, right.is_running) {
             (true, false) => TILT,
@@ -152,10 +150,10 @@ impl Clock {
             (rocker, self.brass.clone()),
         ];
         let bodies = self.solids.iter().zip(parts);
-        let place = |(solid, (place, surface)): (&Arc<dyn Solid>, _)| {
-            Object::placed(solid.clone(), self.place * place, surface)
+        let stand = |(solid, (within, surface)): (&Arc<dyn Solid>, _)| {
+            Object::placed(solid.clone(), *place * within, surface)
         };
-        bodies.map(place).collect()
+        bodies.map(stand).collect()
     }
 
     /// The painted face.
