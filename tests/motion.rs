@@ -7,8 +7,9 @@ use std::path::Path;
 
 use glam::DVec3;
 use lightsquare::geometry::Solid;
+use shakmaty::Position;
 use shakmaty::san::SanPlus;
-use shakmaty::{Chess, Position};
+use shakmaty::variant::{Variant, VariantPosition};
 
 use lightsquare::assets::{Assets, SetName};
 use lightsquare::config::{Config, Look, VIEWS};
@@ -73,14 +74,23 @@ fn pieces(frame: &Frame) -> Vec<Mover> {
     frame.movers.iter().copied().chain(standing).chain(frame.taken.iter().copied()).collect()
 }
 
+/// The room of a piece that is as large as the share `size` of itself: a drum, where it is less.
+fn sized(envelope: &Envelope, size: f64) -> Envelope {
+    if size == 1.0 {
+        return envelope.clone();
+    }
+    let slices = (envelope.height() * size / SLICE).ceil() as usize;
+    Envelope::new(vec![envelope.radius() * size; slices])
+}
+
 /// Two pieces of a frame that overlap, or one that goes through the board.
 fn collision(frame: &Frame, bodies: &Bodies) -> Option<String> {
     let pieces = pieces(frame);
-    let envelope = |mover: &Mover| bodies.of(mover.piece.role);
+    let envelope = |mover: &Mover| sized(bodies.of(mover.piece.role), mover.size);
     for (index, mover) in pieces[..frame.movers.len()].iter().enumerate() {
         for other in &pieces[index + 1..] {
             let is_exchange = mover.identity == other.identity;
-            let gap = envelope(mover).gap(mover.spot, envelope(other), other.spot);
+            let gap = envelope(mover).gap(mover.spot, &envelope(other), other.spot);
             // Drums touch their neighbours at rest; sums of decimal fractions leave crumbs.
             if gap < -1e-6 && !is_exchange {
                 return Some(format!("{mover:?} and {other:?}: {gap}"));
@@ -196,10 +206,10 @@ fn nothing_passes_through_anything_in_any_sample_game() {
     assert!(seen > 10_000, "{seen}");
 }
 
-/// A game of legal moves chosen by chance, captures and promotions first.
-fn random_game(mut seed: u64, plies: usize) -> String {
-    let mut position = Chess::default();
-    let mut text = String::new();
+/// A game of legal moves chosen by chance, captures, promotions and drops first.
+fn random_game(variant: Variant, mut seed: u64, plies: usize) -> String {
+    let mut position = VariantPosition::new(variant);
+    let mut text = format!("[Variant \"{variant}\"]\n\n");
     for ply in 0..plies {
         let moves = position.legal_moves();
         if moves.is_empty() {
@@ -208,6 +218,8 @@ fn random_game(mut seed: u64, plies: usize) -> String {
         seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
         let special: Vec<_> =
             moves.iter().filter(|m| m.is_capture() || m.is_promotion()).copied().collect();
+        let drops: Vec<_> = moves.iter().filter(|m| m.from().is_none()).copied().collect();
+        let special = if seed >> 63 == 0 && !drops.is_empty() { drops } else { special };
         let from = if special.is_empty() || seed >> 62 == 0 { moves.to_vec() } else { special };
         let played = from[(seed >> 33) as usize % from.len()];
         if ply % 2 == 0 {
@@ -225,13 +237,71 @@ fn nothing_passes_through_anything_in_games_of_chance_with_any_set() {
     {
         let mut captured = 0;
         for seed in 0..4 {
-            let text = random_game(seed, 120);
+            let text = random_game(Variant::Chess, seed, 120);
             let game = game(&text);
             no_collision(&game, &bodies, &format!("{name}, {text}"));
             captured += at_the_end(&game).taken.len();
         }
         assert!(captured > 60, "{captured}");
     }
+}
+
+#[test]
+fn nothing_passes_through_anything_in_games_by_other_rules() {
+    let bodies = staunton();
+    for variant in Variant::ALL {
+        for seed in 0..3 {
+            let text = random_game(variant, seed, 100);
+            no_collision(&game(&text), &bodies, &text);
+        }
+    }
+}
+
+#[test]
+fn a_dropped_piece_comes_from_the_hand_through_the_air() {
+    let text = "[Variant \"crazyhouse\"]\n\n1. e4 d5 2. exd5 Qxd5 3. @e6 *";
+    let frame = halfway(&game(text));
+    let [mover] = frame.movers[..] else { panic!("{:?}", frame.movers) };
+    assert_eq!((mover.piece.color, mover.piece.role), (Color::White, Role::Pawn));
+    // Half of the way from White's right hand, higher than pawns.
+    assert!(mover.spot.file > 4.0 && mover.spot.height > 0.5, "{mover:?}");
+    assert_eq!(frame.placement.get(Square::E6), None);
+    assert_eq!(frame.taken.len(), 1, "it is out of the hand");
+}
+
+#[test]
+fn who_is_captured_changes_colour_where_he_is_in_hand() {
+    let game = game("[Variant \"crazyhouse\"]\n\n1. e4 d5 2. exd5 *");
+    let script = script(&staunton());
+    let timeline = Timeline::new(&game, 2, 3, &script).unwrap();
+    let frames: Vec<Frame> = (0..timeline.frames()).map(|index| timeline.frame(index)).collect();
+    let way = frames.iter().flat_map(|frame| &frame.movers);
+    let way: Vec<&Mover> = way.filter(|mover| mover.identity == Square::D7).collect();
+    let is_white = |mover: &&Mover| mover.piece.color == Color::White;
+    let (hers, his) = way.iter().partition::<Vec<&Mover>, _>(|mover| is_white(mover));
+    assert!(hers.len() > 2 && his.len() > 2);
+    let end = frames.last().unwrap().taken[0];
+    assert!(hers.iter().all(|mover| mover.size <= 1.0 && mover.spot.apart(end.spot) < 1e-9));
+    assert!(his[0].size == 1.0 && his[0].spot.apart(end.spot) > 1.0);
+}
+
+#[test]
+fn all_that_a_capture_blows_up_is_gone_and_nobody_else() {
+    let game = game("[Variant \"atomic\"]\n\n1. Nf3 a6 2. Ne5 a5 3. Nxd7 *");
+    let script = script(&staunton());
+    let timeline = Timeline::new(&game, 4, 5, &script).unwrap();
+    let frames: Vec<Frame> = (0..timeline.frames()).map(|index| timeline.frame(index)).collect();
+    let most = frames.iter().max_by_key(|frame| frame.movers.len()).unwrap();
+    let who: Vec<Square> = most.movers.iter().map(|mover| mover.identity).collect();
+    // The knight, whom it takes, and all round but pawns.
+    let round = [Square::G1, Square::D7, Square::C8, Square::D8, Square::E8];
+    assert_eq!(who, round);
+    let last = frames.last().unwrap();
+    assert!(last.movers.is_empty() && last.taken.is_empty());
+    assert_eq!(last.placement.iter().count(), 32 - round.len());
+    // They shrink, and rise but for who is taken.
+    let sizes: Vec<f64> = frames.iter().flat_map(|f| &f.movers).map(|mover| mover.size).collect();
+    assert!(sizes.iter().any(|size| *size < 0.2) && sizes.iter().all(|size| *size > 0.0));
 }
 
 /// Every pair of files that a king and the rook that it castles with can have, both ways.

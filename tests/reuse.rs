@@ -6,7 +6,7 @@ use glam::DVec3;
 use image::DynamicImage;
 use lightsquare::assets::{Assets, SetName};
 use lightsquare::config::{Config, Look, ShowClock, View};
-use lightsquare::game::{Game, Source};
+use lightsquare::game::{Game, Scanner, Source};
 use lightsquare::job::Showing;
 use lightsquare::notation::{Piece, Role, Square};
 use lightsquare::scene::{Object, Scene, Stage};
@@ -43,6 +43,10 @@ struct Show {
 
 /// The demonstration with a clock, all marks, and captured pieces beside the board.
 fn show(look: Look, change: impl Fn(&mut Config)) -> Show {
+    show_of(&game(), look, change)
+}
+
+fn show_of(game: &Game, look: Look, change: impl Fn(&mut Config)) -> Show {
     let mut config = Config { width: WIDTH, height: HEIGHT, ..Config::new(look) };
     config.render.subdivisions = 2;
     config.marks = Config::new(Look::Studio).marks;
@@ -56,8 +60,7 @@ fn show(look: Look, change: impl Fn(&mut Config)) -> Show {
     let showing = Showing { film: FILM, animate: true, ..Showing::default() };
     let stage = Stage::new(&config, &assets, showing.reach(&config)).unwrap();
     let script = showing.script(&config, stage.bodies().clone());
-    let game = game();
-    let timeline = Timeline::new(&game, 0, game.plies.len(), &script).unwrap();
+    let timeline = Timeline::new(game, 0, game.plies.len(), &script).unwrap();
     let frames = (0..timeline.frames()).map(|index| timeline.frame(index)).collect();
     Show { stage, frames }
 }
@@ -122,6 +125,26 @@ fn a_game_in_a_row_has_the_pictures_that_it_has_one_by_one() {
             for mode in [Antialiasing::None, Antialiasing::Grid(2), ADAPTIVE] {
                 let share = assert_reuse(&format!("{name}, {view:?}"), &scenes, mode);
                 assert!(share < 0.75, "{name}, {view:?}, {mode:?}: {share} of the rays");
+            }
+        }
+    }
+}
+
+/// A drop, and pieces that change colour; an explosion.
+#[test]
+fn games_by_other_rules_in_a_row_have_the_pictures_that_they_have_one_by_one() {
+    for (variant, moves, movers) in [
+        ("crazyhouse", "1. e4 d5 2. exd5 Qxd5 3. @e6 @d4 *", 2),
+        ("atomic", "1. Nf3 a6 2. Ne5 a5 3. Nxd7 *", 5),
+    ] {
+        let text = format!("[Variant \"{variant}\"]\n\n{moves}");
+        for look in [Look::Thesis, Look::Studio] {
+            let scanned = Scanner::new(text.as_bytes()).next().unwrap().unwrap();
+            let show = show_of(&Game::read(scanned, 1), look, |_| {});
+            assert!(show.frames.iter().any(|frame| frame.movers.len() == movers), "{variant}");
+            let scenes = show.scenes(0, show.frames.len() - 1);
+            for mode in [Antialiasing::None, ADAPTIVE] {
+                assert_reuse(&format!("{variant}, {look:?}"), &scenes, mode);
             }
         }
     }

@@ -109,6 +109,7 @@ fn is_complete(san: &San, text: &str) -> bool {
 
 fn uci(text: &str) -> Option<UciMove> {
     let text = text.trim_end_matches(['+', '#']);
+    // A drop is read as SAN.
     UciMove::from_ascii(text.as_bytes()).ok().filter(|m| matches!(m, UciMove::Normal { .. }))
 }
 
@@ -140,7 +141,7 @@ fn plain(token: &str) -> String {
     }
     let promoted = squares.len().checked_sub(1).filter(|&last| {
         squares.is_char_boundary(last)
-            && squares[last..].starts_with(['Q', 'R', 'B', 'N'])
+            && squares[last..].starts_with(['Q', 'R', 'B', 'N', 'K'])
             && squares[..last].ends_with(['1', '8'])
     });
     if let Some(last) = promoted {
@@ -173,6 +174,10 @@ mod tests {
             ("O‑O", "O-O"),
             ("O–O–O+", "O-O-O"),
             ("Nf6++", "Nf6"),
+            ("N@f3", "N@f3"),
+            ("@e4", "@e4"),
+            ("P@e4+", "@e4"),
+            ("b8K", "b8=K"),
         ];
         for (token, expected) in cases {
             let token = token.trim_end_matches('.');

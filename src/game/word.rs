@@ -219,6 +219,8 @@ mod tests {
             ("Nf3+-", vec![a_move("Nf3"), glyphs(&[18])]),
             ("Nf3!?±", vec![a_move("Nf3"), glyphs(&[5, 16])]),
             ("Nf3+", vec![a_move("Nf3+")]),
+            ("N@f3!", vec![a_move("N@f3"), glyphs(&[1])]),
+            ("@e4", vec![a_move("@e4")]),
             ("O-O=", vec![a_move("O-O"), glyphs(&[10])]),
             ("+-", vec![glyphs(&[18])]),
             ("+–", vec![glyphs(&[18])]),
