@@ -10,6 +10,7 @@ ply of the main line. Prints the differences and a summary; exits with 1 if
 there is any difference.
 """
 
+import re
 import sys
 
 import chess
@@ -38,12 +39,28 @@ def notation(board, color):
     )
 
 
+def fen(board):
+    """A board's FEN, with what is in hand from the pawn up, as lichess writes it."""
+
+    def in_order(match):
+        return "[" + "".join(sorted(match[1], key="PNBRQpnbrq".index)) + "]"
+
+    return re.sub(r"\[(\w*)\]", in_order, board.fen())
+
+
+def push(board, move):
+    """Makes a move. A pawn that is dropped is a pawn's move, after which the clock of half-moves begins anew."""
+    board.push(move)
+    if move.drop == chess.PAWN:
+        board.halfmove_clock = 0
+
+
 def expected_rows(number, game):
     """A game's rows by python-chess, up to the first null move."""
 
     def row(san):
         sides = (notation(board, color) for color in (chess.WHITE, chess.BLACK))
-        return [str(number), str(ply), san, board.fen(), *sides]
+        return [str(number), str(ply), san, fen(board), *sides]
 
     board, ply = game.board(), 0
     yield row("-")
@@ -51,7 +68,7 @@ def expected_rows(number, game):
         if not move:
             return
         san = board.san(move)
-        board.push(move)
+        push(board, move)
         yield row(san)
 
 
