@@ -55,6 +55,13 @@ impl Game {
         Some(format!("{}{dots} {}", ply.number(), ply.san))
     }
 
+    /// How many checks White and Black have given up to `ply`, where the rules count them.
+    pub fn checks_given(&self, ply: usize) -> Option<[u32; 2]> {
+        let position = self.position(ply)?;
+        let left = position.remaining_checks()?;
+        Some([left.white, left.black].map(|left| 3_u32.saturating_sub(u32::from(left))))
+    }
+
     /// What the rules say of the last position, if they end the game there.
     pub fn ending(&self) -> Option<Ending> {
         let last = &self.plies.last()?.after;

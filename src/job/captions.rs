@@ -123,7 +123,7 @@ fn clocks(dials: Option<&Dials>) -> [String; 2] {
     }
 }
 
-/// `17. Rd8#!! ±`; nothing at the start.
+/// `17. Rd8#!! ±`, in three-check with the checks that were given; nothing at the start.
 fn moved(game: &Game, ply: usize) -> String {
     let Some(mut moved) = game.numbered_san(ply) else {
         return String::new();
@@ -131,6 +131,9 @@ fn moved(game: &Game, ply: usize) -> String {
     let notes = game.notes(ply);
     moved.extend(notes.move_glyph());
     moved.extend(notes.position_glyph().map(|glyph| format!(" {glyph}")));
+    if let Some([white, black]) = game.checks_given(ply).filter(|checks| *checks != [0, 0]) {
+        moved += &format!(" (checks {white}–{black})");
+    }
     moved
 }
 
@@ -324,6 +327,15 @@ mod tests {
             ("1. e4 $19 *", "1. e4 −+"),
         ] {
             assert_eq!(moved(&game(text), 1), expected);
+        }
+    }
+
+    #[test]
+    fn checks_are_counted_where_they_count() {
+        for (variant, expected) in [("3check", "3. Bb5+ (checks 1–0)"), ("chess", "3. Bb5+")] {
+            let game = game(&format!("[Variant \"{variant}\"]\n\n1. e4 e5 2. a3 d6 3. Bb5+ *"));
+            assert_eq!(moved(&game, 5), expected);
+            assert_eq!(moved(&game, 4), "2… d6");
         }
     }
 

@@ -75,7 +75,7 @@ pub fn ending(game: &Game) -> String {
         Ending::Stalemate => "Stalemate",
         Ending::InsufficientMaterial => "Neither side can mate",
         Ending::Explosion => "The king is blown up",
-        Ending::NothingToMove => "No moves left: won",
+        Ending::NothingToMove => "All given away, or stuck",
         Ending::ThirdCheck => "Third check",
         Ending::Hill => "The king is on the hill",
         Ending::Goal => "The king has reached the goal",
@@ -133,6 +133,26 @@ mod tests {
         ] {
             let separator = if moves.starts_with('[') { "" } else { "\n" };
             let text = format!("[Termination \"{termination}\"]\n{separator}{moves}");
+            assert_eq!(ending(&game(&text)), expected, "{text}");
+        }
+    }
+
+    #[test]
+    fn variants_have_endings_of_their_own() {
+        for (variant, start, moves, expected) in [
+            ("atomic", "", "1. Nf3 a6 2. Ne5 a5 3. Nxf7 1-0", "The king is blown up"),
+            ("koth", "4k3/8/8/8/8/3K4/8/8 w - - 0 1", "1. Kd4 1-0", "The king is on the hill"),
+            (
+                "race",
+                "8/k6K/8/8/8/8/8/8 w - - 0 1",
+                "1. Kh8 Ka8 1/2-1/2",
+                "Both kings have reached the goal",
+            ),
+            // A result that the rules do not give has another reason.
+            ("race", "8/k6K/8/8/8/8/8/8 w - - 0 1", "1. Kh8 Ka8 0-1", ""),
+        ] {
+            let fen = if start.is_empty() { String::new() } else { format!("[FEN \"{start}\"]\n") };
+            let text = format!("[Variant \"{variant}\"]\n{fen}\n{moves}");
             assert_eq!(ending(&game(&text)), expected, "{text}");
         }
     }
