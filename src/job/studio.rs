@@ -73,7 +73,7 @@ pub(super) fn stage(settings: &PictureSettings, reach: Reach) -> Result<Stage, J
     Ok(Stage::new(&settings.config, &assets, reach)?)
 }
 
-/// The room that pieces take in frames that reach as far as `reach`, if any is needed.
+/// The room that pieces and board take.
 pub(super) fn bodies(settings: &PictureSettings) -> Result<Bodies, JobError> {
     Ok(scene::bodies(&Assets::load(&settings.config, &settings.set)?.set))
 }
