@@ -191,3 +191,45 @@ fn bad_tests_are_told_with_their_flag() {
         }
     }
 }
+
+/// `render` takes the very games that `inspect` does, under the numbers that they have in their files.
+#[test]
+fn the_same_games_are_rendered() {
+    for (flags, expected) in [
+        (&[][..], &["masters/0001", "masters/0002", "masters/0003", "others/0001"][..]),
+        (&["--player", "Kasparov"], &["masters/0001", "masters/0002", "others/0001"]),
+        (&["--player", "Kasparov", "--limit", "2"], &["masters/0001", "masters/0002"]),
+        (&["--select", "2-3"], &["masters/0002", "masters/0003"]),
+        (&["--tag", "ECO=C*", "--select", "1"], &["others/0001"]),
+        (&["--checkmate"], &["masters/0002"]),
+        (&["--limit", "1"], &["masters/0001"]),
+    ] {
+        let folder = folder();
+        let plain = ["--at", "end", "--look", "thesis", "--aa", "none", "--size", "8x8", "-q"];
+        let command = ["render", "masters.pgn", "others.pgn"];
+        let (code, _, stderr) = run(folder.path(), &[&command, &plain[..], flags].concat());
+        assert!([0, 3].contains(&code), "{stderr}");
+        let mut found = Vec::new();
+        for file in fs::read_dir(folder.path().join("out")).unwrap() {
+            let file = file.unwrap();
+            for game in fs::read_dir(file.path()).unwrap() {
+                let names = [file.file_name(), game.unwrap().file_name()];
+                let [file, game] = names.map(|name| name.into_string().unwrap());
+                if game != "report.jsonl" {
+                    found.push(format!("{file}/{}", &game[..4]));
+                }
+            }
+            let report = fs::read_to_string(file.path().join("report.jsonl")).unwrap();
+            let name = file.file_name().into_string().unwrap();
+            let here = expected.iter().filter(|game| game.starts_with(&name)).count();
+            assert_eq!(report.lines().count(), here, "{flags:?}");
+        }
+        found.sort();
+        assert_eq!(found, expected, "{flags:?}");
+    }
+    let folder = folder();
+    let (code, _, stderr) = run(folder.path(), &["render", "masters.pgn", "--player", "Nobody"]);
+    assert_eq!(code, 1);
+    assert!(stderr.contains("masters.pgn: none of its games is selected, it has 3"), "{stderr}");
+    assert!(!folder.path().join("out").exists());
+}

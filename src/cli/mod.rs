@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 use anyhow::bail;
 use clap::{Args, ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 use lightsquare::config::{Config, Look, Shading};
-use lightsquare::game::{Moment, Wanted};
+use lightsquare::game::Moment;
 use lightsquare::job::{
     BenchJob, DiagramJob, ExportJob, InspectJob, Listing, PictureSettings, RenderJob,
 };
@@ -110,7 +110,7 @@ enum ColorMode {
 #[derive(Subcommand)]
 pub enum Command {
     /// Render games, each into a folder of numbered pictures, films, or both
-    #[command(after_help = RENDER_EXAMPLES)]
+    #[command(after_help = format!("{RENDER_EXAMPLES}\n\n{}", wanted::EXAMPLES))]
     Render(RenderArgs),
     /// Render one position
     #[command(after_help = DIAGRAM_EXAMPLES)]
@@ -296,18 +296,12 @@ impl RenderArgs {
             bail!(UsageError("--out: expected a folder, found `-`".to_owned()));
         }
         let picture = self.settings()?;
-        let wanted = self.wanted.into_wanted()?;
-        if (Wanted { numbers: None, ..wanted.clone() }) != Wanted::default() {
-            let message = "games to render are chosen by --select alone, expected no other flag that \
-                           chooses games";
-            bail!(UsageError(message.to_owned()));
-        }
         Ok(RenderJob {
             names: self.film.names(&picture.config)?,
             films: self.film.films(&picture.config)?,
             inputs: self.inputs,
             out: self.out,
-            selection: wanted.numbers,
+            wanted: self.wanted.into_wanted()?,
             from: self.at.unwrap_or(self.from),
             to: self.at.unwrap_or(self.to),
             variations: self.variations,

@@ -18,9 +18,11 @@ pub struct Batch {
     pub input: Input,
     /// Where its pictures go, within the folder of all output.
     pub folder: PathBuf,
-    /// What was found in it.
+    /// How many of its games are rendered: the first that are wanted.
     pub games: usize,
     pub frames: u64,
+    /// How many games were seen, wanted or not.
+    pub seen: usize,
 }
 
 /// A game, and what of it is rendered.
@@ -129,18 +131,20 @@ fn without_endings(name: &str) -> &str {
 }
 
 impl Batch {
-    /// Sees what `job` wants of `input`, for pictures in `folder`, and tells what could not be read.
+    /// Sees what `job` wants of `input`, for pictures in `folder`, and tells what could not be read. There may be nothing;
+    /// `room` games are taken at most.
     ///
     /// # Errors
-    /// Input that cannot be read, a selection without games, frames or a camera's path that a game does not have.
+    /// Input that cannot be read, frames or a camera's path that a game does not have.
     pub fn survey(
         job: &RenderJob,
         script: &Script,
         input: Input,
         folder: PathBuf,
+        room: usize,
         progress: &dyn Progress,
     ) -> Result<Batch, JobError> {
-        let mut batch = Batch { input, folder, games: 0, frames: 0 };
+        let batch = Batch { input, folder, games: room, frames: 0, seen: 0 };
         let file = batch.input.name.clone();
         let mut entries = batch.entries(job, script)?;
         let (mut games, mut frames) = (0, 0);
@@ -154,16 +158,15 @@ impl Batch {
             games += 1;
             frames += entry.frames();
         }
-        let seen = entries.seen;
-        if games == 0 {
-            return Err(JobError::NothingSelected { file, games: seen });
+        let seen = entries.games.seen();
+        // A single file without any is an error of its own; and one that was not read to its end misses nothing.
+        if games < room && (games > 0 || job.inputs.len() > 1) {
+            say_missing(&file, job.wanted.numbers.as_ref(), seen, progress);
         }
-        say_missing(&file, job.selection.as_ref(), seen, progress);
-        (batch.games, batch.frames) = (games, frames);
-        Ok(batch)
+        Ok(Batch { games, frames, seen, ..batch })
     }
 
-    /// The games of the file that are wanted, one after the other.
+    /// The games of the file that are rendered, one after the other.
     ///
     /// # Errors
     /// Input that cannot be read.
@@ -173,35 +176,33 @@ impl Batch {
         script: &'a Script,
     ) -> Result<Entries<'a>, JobError> {
         let games = self.input.open()?.games();
-        Ok(Entries { job, script, file: &self.input.name, games, seen: 0 })
+        Ok(Entries { job, script, file: &self.input.name, games, left: self.games })
     }
 }
 
-/// Games that are wanted, each cut to what is wanted of it.
+/// Games that are rendered, each cut to what is wanted of it.
 pub struct Entries<'a> {
     job: &'a RenderJob,
     script: &'a Script,
     file: &'a str,
     games: Games,
-    /// The games of the file so far, wanted or not.
-    seen: usize,
+    /// How many more there may be.
+    left: usize,
 }
 
 impl Iterator for Entries<'_> {
     type Item = Result<Entry, JobError>;
 
     fn next(&mut self) -> Option<Result<Entry, JobError>> {
-        loop {
-            let game = match self.games.next()? {
-                Ok(game) => game,
-                Err(error) => return Some(Err(error.into())),
-            };
-            self.seen += 1;
-            let selection = self.job.selection.as_ref();
-            if selection.is_none_or(|selection| selection.contains(game.number)) {
-                return Some(self.entry(game));
-            }
+        self.left = self.left.checked_sub(1)?;
+        let game = match self.games.next_wanted(&self.job.wanted)? {
+            Ok(game) => game,
+            Err(error) => return Some(Err(error.into())),
+        };
+        if self.job.wanted.highest_number().is_some_and(|last| game.number >= last) {
+            self.left = 0;
         }
+        Some(self.entry(game))
     }
 }
 

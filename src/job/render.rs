@@ -20,9 +20,9 @@ use super::report::{Report, ReportLine, Status, VariationLine};
 use super::room::check_room;
 use super::shared::Shared;
 use super::studio::{PictureSettings, Studio};
-use super::{JobError, Progress, Showing};
+use super::{JobError, Progress, Showing, nothing_selected};
 use crate::config::Config;
-use crate::game::{Moment, Selection};
+use crate::game::{Moment, Wanted};
 use crate::output::{
     FilmFormat, FolderLock, FrameNames, film_name, prepare_inside, remove_temporaries,
 };
@@ -36,8 +36,7 @@ pub struct RenderJob {
     pub inputs: Vec<PathBuf>,
     /// The folder that gets one folder a file, each with one folder a game.
     pub out: PathBuf,
-    /// All games when `None`.
-    pub selection: Option<Selection>,
+    pub wanted: Wanted,
     /// The first position and the last one.
     pub from: Moment,
     pub to: Moment,
@@ -143,15 +142,28 @@ pub fn render(job: &RenderJob, progress: &dyn Progress) -> Result<Summary, JobEr
     Ok(summary)
 }
 
-/// Looks through all input.
+/// Looks through all input: the files that have games that are wanted.
+///
+/// # Errors
+/// When there is none, or one cannot be read.
 pub fn survey(job: &RenderJob, progress: &dyn Progress) -> Result<Vec<Batch>, JobError> {
     // How many frames there are does not depend on the room that pieces take.
     let script = job.showing.script(&job.picture.config, Bodies::default());
-    let inputs = job.inputs.iter().zip(folder_names(&job.inputs));
-    let batches = inputs.map(|(path, folder)| {
-        Batch::survey(job, &script, Input::new(path)?, folder.into(), progress)
-    });
-    batches.collect()
+    let mut room = job.wanted.limit().unwrap_or(usize::MAX);
+    let (mut batches, mut seen) = (Vec::new(), 0);
+    for (path, folder) in job.inputs.iter().zip(folder_names(&job.inputs)) {
+        let input = Input::new(path)?;
+        let batch = Batch::survey(job, &script, input, folder.into(), room, progress)?;
+        room -= batch.games;
+        seen += batch.seen;
+        if batch.games > 0 {
+            batches.push(batch);
+        }
+    }
+    if batches.is_empty() {
+        return Err(nothing_selected(&job.inputs, seen));
+    }
+    Ok(batches)
 }
 
 /// How many bytes of memory a pixel takes while its game is rendered.
