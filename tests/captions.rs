@@ -7,7 +7,7 @@ use assert_cmd::Command;
 use image::{DynamicImage, GenericImageView};
 use lightsquare::assets::SetName;
 use lightsquare::config::{Config, Look};
-use lightsquare::game::{Moment, Wanted};
+use lightsquare::game::{Letters, Moment, Wanted};
 use lightsquare::job::{Films, PictureSettings, Progress, RenderJob, Showing, render};
 use lightsquare::output::{FrameNames, PictureFormat};
 use lightsquare::timeline::Film;
@@ -113,6 +113,7 @@ fn a_pause_is_traced_once() {
             inputs: vec![game.clone()],
             out: folder.path().join(format!("out-{fps}")),
             wanted: Wanted::default(),
+            letters: Letters::Auto,
             from: Moment::Ply(0),
             to: Moment::End,
             variations: false,

@@ -105,7 +105,7 @@ fn what_cannot_be_read_is_a_remark() {
 
 /// A variation in one line: where it begins, its moves, and those within it.
 fn written(variation: &Variation) -> String {
-    let moves: Vec<&str> = variation.plies.iter().map(|ply| ply.san.as_str()).collect();
+    let moves: Vec<String> = variation.plies.iter().map(|ply| ply.san.to_string()).collect();
     let within: Vec<String> = variation.variations.iter().map(written).collect();
     let problems: String = variation.problems.iter().map(|p| format!(" | {p}")).collect();
     let within =
@@ -233,7 +233,7 @@ fn a_variation_is_a_game_of_its_own() {
     );
     let moves = |path: &[usize]| {
         let game = game.with_variation(path).unwrap();
-        let moves: Vec<&str> = game.plies.iter().map(|ply| ply.san.as_str()).collect();
+        let moves: Vec<String> = game.plies.iter().map(|ply| ply.san.to_string()).collect();
         (moves.join(" "), game.is_whole(), game.variations.len())
     };
     assert_eq!(moves(&[]), ("e4 e5 d4".to_owned(), true, 1));

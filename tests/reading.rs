@@ -12,7 +12,7 @@ fn read_bytes(bytes: &[u8]) -> Vec<Game> {
 
 /// A game in one line: its moves, its result, and its problems.
 fn told(game: &Game) -> String {
-    let moves: Vec<&str> = game.plies.iter().map(|ply| ply.san.as_str()).collect();
+    let moves: Vec<String> = game.plies.iter().map(|ply| ply.san.to_string()).collect();
     let problems: String = game.problems.iter().map(|problem| format!(" | {problem}")).collect();
     format!("{} {}{problems}", moves.join(" "), game.result)
 }
@@ -161,7 +161,7 @@ fn a_game_stops_where_a_move_may_be_missing() {
     ];
     for (text, moves) in cases {
         let game = &read(text)[0];
-        let shown: Vec<&str> = game.plies.iter().map(|ply| ply.san.as_str()).collect();
+        let shown: Vec<String> = game.plies.iter().map(|ply| ply.san.to_string()).collect();
         assert_eq!(shown.join(" "), moves, "{text:?}: {:?}", game.problems);
         assert!(!game.is_whole(), "{text:?}");
     }
@@ -188,7 +188,7 @@ fn harmless_things_stop_nothing() {
     ];
     for text in cases {
         let game = &read(text)[0];
-        let moves: Vec<&str> = game.plies.iter().map(|ply| ply.san.as_str()).collect();
+        let moves: Vec<String> = game.plies.iter().map(|ply| ply.san.to_string()).collect();
         assert_eq!(moves.join(" "), "e4 e5 Nf3", "{text:?}");
         assert!(game.is_whole() && read(text).len() == 1, "{text:?}: {:?}", game.problems);
     }

@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 use anyhow::bail;
 use clap::{Args, ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 use lightsquare::config::{Config, Look, Shading};
-use lightsquare::game::Moment;
+use lightsquare::game::{Letters, Moment};
 use lightsquare::job::{
     BenchJob, DiagramJob, ExportJob, InspectJob, Listing, PictureSettings, RenderJob,
 };
@@ -172,12 +172,15 @@ Examples:
 
 #[derive(Args)]
 pub struct RenderArgs {
-    /// Files of games in PGN; - is the standard input
+    /// Files of games in PGN, packed ones (zstd, gzip, bzip2) too; - is the standard input
     #[arg(required_unless_present = "print_config", value_name = "PGN")]
     inputs: Vec<PathBuf>,
     /// Folder for the pictures
     #[arg(short, long, value_name = "DIR", default_value = "out")]
     out: PathBuf,
+    /// Letters of the pieces: english, german, french, czech, …; auto finds those of a whole game
+    #[arg(long, value_name = "LANGUAGE", default_value = "auto")]
+    letters: Letters,
     /// First position: after a move (17w, 17b), after so many half-moves, or start
     #[arg(long, value_name = "MOVE", default_value = "start")]
     from: Moment,
@@ -266,9 +269,12 @@ pub struct BenchArgs {
 
 #[derive(Args)]
 pub struct InspectArgs {
-    /// Files of games in PGN; - is the standard input
+    /// Files of games in PGN, packed ones (zstd, gzip, bzip2) too; - is the standard input
     #[arg(required = true, value_name = "PGN")]
     inputs: Vec<PathBuf>,
+    /// Letters of the pieces: english, german, french, czech, …; auto finds those of a whole game
+    #[arg(long, value_name = "LANGUAGE", default_value = "auto")]
+    letters: Letters,
     /// A tab-separated row for every position: game, ply, san, white, black
     #[arg(long, conflicts_with = "notes")]
     positions: bool,
@@ -302,6 +308,7 @@ impl RenderArgs {
             inputs: self.inputs,
             out: self.out,
             wanted: self.wanted.into_wanted()?,
+            letters: self.letters,
             from: self.at.unwrap_or(self.from),
             to: self.at.unwrap_or(self.to),
             variations: self.variations,
@@ -389,8 +396,8 @@ impl InspectArgs {
             (_, true) => Listing::Notes,
             _ => Listing::Games,
         };
-        let wanted = self.wanted.into_wanted()?;
-        Ok(InspectJob { inputs: self.inputs, wanted, listing })
+        let (inputs, letters) = (self.inputs, self.letters);
+        Ok(InspectJob { inputs, wanted: self.wanted.into_wanted()?, letters, listing })
     }
 }
 

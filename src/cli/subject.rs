@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use lightsquare::game::Moment;
+use lightsquare::game::{Letters, Moment};
 use lightsquare::job::Subject;
 use lightsquare::notation::Placement;
 
@@ -19,6 +19,9 @@ pub struct SubjectArgs {
     /// The game's number in its file
     #[arg(long, value_name = "GAME", default_value = "1", value_parser = game_number, conflicts_with_all = ["fen", "white", "black"])]
     select: usize,
+    /// Letters of the pieces: english, german, french, czech, …; auto finds those of a whole game
+    #[arg(long, value_name = "LANGUAGE", default_value = "auto", conflicts_with_all = ["fen", "white", "black"])]
+    letters: Letters,
     /// The position: after a move (17w, 17b), after so many half-moves, start or end
     #[arg(long, value_name = "MOVE", default_value = "end", conflicts_with_all = ["fen", "white", "black"])]
     at: Moment,
@@ -36,7 +39,9 @@ pub struct SubjectArgs {
 impl SubjectArgs {
     pub fn into_subject(self) -> anyhow::Result<Subject> {
         Ok(match (self.input, self.fen) {
-            (Some(file), _) => Subject::Game { file, number: self.select, at: self.at },
+            (Some(file), _) => {
+                Subject::Game { file, letters: self.letters, number: self.select, at: self.at }
+            }
             (None, Some(FenArg(placement, fen))) => Subject::Placement { placement, fen },
             (None, None) => {
                 let [white, black] =

@@ -9,7 +9,7 @@ use crate::notation::ParseMarkError;
 pub fn read(line: usize, comment: &[u8], mut each: impl FnMut(Result<Note, Problem>)) {
     let mut line = line;
     let mut rest = comment;
-    while let Some(start) = rest.windows(2).position(|pair| pair == b"[%") {
+    while let Some(start) = memchr::memmem::find(rest, b"[%") {
         line += lines(&rest[..start]);
         rest = &rest[start..];
         let end = rest.iter().position(|byte| *byte == b']');

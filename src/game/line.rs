@@ -1,8 +1,15 @@
 //! A line of play as it stands in the text: the main line of a game, or a variation.
 
+use std::borrow::Cow;
 use std::mem;
 
+use shakmaty::san::SanPlus;
+
+use super::comment::Comment;
+use super::letters::Language;
+use super::movetext::Written;
 use super::notes::Notes;
+use super::plain::{self, Plain};
 use super::word::{Word, shortened};
 use super::{LONGEST_TOKEN, Problem, command, movetext};
 
@@ -12,7 +19,14 @@ pub struct Line {
     /// What may be moves, without move numbers and glyphs; the moves of variations are not among
     /// them.
     pub tokens: Vec<Token>,
-    /// The words on one line, without comments and variations: what pgn-reader is given.
+    /// How many tokens there were, those that were not kept too.
+    pub count: usize,
+    /// Whether one of the tokens shows that this is a game: it is a move, or has a number.
+    pub is_played: bool,
+    /// Whether no more is kept of the line than what tells where its game ends.
+    pub is_skipped: bool,
+    /// The words on one line, without comments and variations: what pgn-reader is given. Empty as
+    /// long as all words are plain: those need no second opinion.
     pub movetext: Vec<u8>,
     /// What is said before the first token.
     pub notes: Option<Box<Notes>>,
@@ -38,7 +52,7 @@ pub struct ScannedVariation {
 #[derive(Debug, Default)]
 pub struct Token {
     pub line: usize,
-    pub text: String,
+    pub spelled: Spelled,
     /// The move number directly before it.
     pub number: Option<u32>,
     /// Whether dots before it say that it is Black's.
@@ -51,6 +65,20 @@ pub struct Token {
     pub notes: Option<Box<Notes>>,
 }
 
+/// How a token is written.
+#[derive(Debug)]
+pub enum Spelled {
+    /// As the standard has it.
+    Plain(SanPlus),
+    Other(Box<str>),
+}
+
+impl Default for Spelled {
+    fn default() -> Spelled {
+        Spelled::Other(Box::default())
+    }
+}
+
 #[derive(Debug, Default)]
 struct Before {
     number: Option<u32>,
@@ -61,10 +89,27 @@ struct Before {
 /// How many problems a line has before remarks add no more to them.
 const MOST_PROBLEMS: usize = 1000;
 
+/// How many half-moves of a line are read. By the rule of 75 moves no game has more than about
+/// 11 800.
+pub const MOST_PLIES: usize = 20_000;
+
 impl Token {
-    /// Whether it is written as a move.
-    pub fn is_move(&self) -> bool {
-        self.fault.is_none() && movetext::is_move(&self.text)
+    /// The token as it stands in the text.
+    pub fn text(&self) -> Cow<'_, str> {
+        match &self.spelled {
+            Spelled::Plain(san) => Cow::Owned(san.to_string()),
+            Spelled::Other(text) => Cow::Borrowed(text),
+        }
+    }
+
+    /// What it may mean, its pieces' letters read as in `letters`.
+    pub fn written(&self, letters: Language) -> Written {
+        match &self.spelled {
+            Spelled::Plain(san) if letters.is_english() => {
+                Written { san: Some(san.san), ..Written::default() }
+            }
+            _ => movetext::tolerant(&self.text(), letters),
+        }
     }
 }
 
@@ -76,6 +121,9 @@ impl Line {
 
     /// Notes something that hides no move.
     pub fn remark(&mut self, line: usize, token: &str, what: &str) {
+        if self.is_skipped || self.problems.len() >= MOST_PROBLEMS {
+            return;
+        }
         self.add_remark(Problem::new(line, token, what, false));
     }
 
@@ -86,40 +134,118 @@ impl Line {
         }
     }
 
+    /// Adds a problem. There is always room for one that loses moves.
+    pub fn problem(&mut self, problem: Problem) {
+        let most = if problem.loses_moves { 2 * MOST_PROBLEMS } else { MOST_PROBLEMS };
+        if !self.is_skipped && self.problems.len() < most {
+            self.problems.push(problem);
+        }
+    }
+
     /// Adds a token at which the line cannot go on; behind the result there is nothing to lose.
     pub fn stop(&mut self, line: usize, text: &str, fault: &'static str) {
         if self.result.is_some() {
             self.remark(line, text, fault);
+        } else if self.counts_one_more() {
+            let spelled = Spelled::Other(shortened(text, LONGEST_TOKEN).into());
+            self.tokens.push(Token { line, spelled, fault: Some(fault), ..Token::default() });
+        }
+    }
+
+    /// Keeps no more of the line than what tells where its game ends.
+    pub fn skip(&mut self) {
+        self.is_skipped = true;
+        (self.tokens, self.movetext, self.variations) = Default::default();
+        (self.notes, self.problems) = Default::default();
+    }
+
+    /// Counts a token; whether it is to be kept.
+    fn counts_one_more(&mut self) -> bool {
+        self.count += 1;
+        !self.is_skipped && self.tokens.len() <= MOST_PLIES
+    }
+
+    /// Takes a plain word of the text; `text` is how it is written.
+    #[inline]
+    pub fn take_plain(&mut self, line: usize, text: &[u8], plain: Plain) {
+        if !self.movetext.is_empty() && !self.is_skipped {
+            self.add_movetext(text);
+        }
+        match plain {
+            Plain::Number { number, dots } => self.number(line, text, number, dots),
+            Plain::Move(san) => self.plain_token(line, san),
+            Plain::NumberedMove { number, dots, played } => {
+                self.number(line, text, number, dots);
+                self.plain_token(line, played);
+            }
+            Plain::Result(result) => self.result(line, result, result),
+        }
+    }
+
+    fn plain_token(&mut self, line: usize, san: SanPlus) {
+        if self.result.is_some() {
+            self.remark(line, &san.to_string(), "is no move");
         } else {
-            let text = shortened(text, LONGEST_TOKEN);
-            self.tokens.push(Token { line, text, fault: Some(fault), ..Token::default() });
+            self.is_played = true;
+            self.token(line, Spelled::Plain(san));
+        }
+    }
+
+    fn number(&mut self, line: usize, text: &[u8], number: u32, dots: usize) {
+        let twice = self.before.number.is_some();
+        self.before = Before { number: Some(number), dots: dots > 1, letter: None };
+        if twice {
+            let what = "is a second number without a move between";
+            self.stop(line, &String::from_utf8_lossy(text), what);
+        }
+    }
+
+    fn result(&mut self, line: usize, text: &str, result: &'static str) {
+        match self.result {
+            Some(known) if known != result => {
+                self.remark(line, text, "is a second result; the first one counts");
+            }
+            _ => self.result = Some(result),
+        }
+    }
+
+    /// Adds a word to what pgn-reader is given, from the first that is not plain on. Brackets are
+    /// left out, since they would hide from it what follows.
+    fn add_movetext(&mut self, text: &[u8]) {
+        if self.movetext.is_empty() {
+            for token in &self.tokens {
+                self.movetext.extend(token.text().bytes());
+                self.movetext.push(b' ');
+            }
+            self.movetext.extend(self.result.unwrap_or_default().bytes());
+            self.movetext.push(b' ');
+        }
+        if self.tokens.len() <= MOST_PLIES {
+            self.movetext.extend(text.iter().filter(|byte| !b"[()".contains(byte)));
+            self.movetext.push(b' ');
         }
     }
 
     /// Takes a word of the text, which was found to be `words`.
     pub fn take(&mut self, line: usize, text: &str, words: impl IntoIterator<Item = Word>) {
-        self.movetext.extend(text.bytes().filter(|byte| *byte != b'['));
-        self.movetext.push(b' ');
+        if let Some(plain) = plain::read(text.as_bytes()) {
+            return self.take_plain(line, text.as_bytes(), plain);
+        }
+        if !self.is_skipped {
+            self.add_movetext(text.as_bytes());
+        }
         for word in words {
             match word {
-                Word::Number { number, dots } => {
-                    let twice = self.before.number.is_some();
-                    self.before = Before { number: Some(number), dots: dots > 1, letter: None };
-                    if twice {
-                        self.stop(line, text, "is a second number without a move between");
-                    }
-                }
+                Word::Number { number, dots } => self.number(line, text.as_bytes(), number, dots),
                 Word::Dots(dots) => self.before.dots |= dots > 1,
-                Word::Result(result) => match self.result {
-                    Some(known) if known != result => {
-                        self.remark(line, text, "is a second result; the first one counts");
-                    }
-                    _ => self.result = Some(result),
-                },
+                Word::Result(result) => self.result(line, text, result),
                 Word::Move(text) if self.result.is_some() => {
                     self.remark(line, &text, "is no move");
                 }
-                Word::Move(text) => self.token(line, text),
+                Word::Move(text) => {
+                    self.is_played = self.is_played || movetext::is_move(&text);
+                    self.token(line, Spelled::Other(text.into()));
+                }
                 Word::Annotation(glyphs) => self.glyphs(line, text, &glyphs),
                 Word::Letter(letter @ ('N' | 'D')) if self.before.number.is_none() => {
                     self.remark(line, text, "is no move");
@@ -130,19 +256,29 @@ impl Line {
         }
     }
 
-    fn token(&mut self, line: usize, text: String) {
+    fn token(&mut self, line: usize, spelled: Spelled) {
         let before = mem::take(&mut self.before);
+        self.is_played |= before.number.is_some();
+        if !self.counts_one_more() {
+            return;
+        }
+        let fault = (self.tokens.len() == MOST_PLIES)
+            .then_some("is behind the 20000 half-moves that are read of a game");
         self.tokens.push(Token {
             line,
-            text,
+            spelled,
             number: before.number,
             is_blacks: before.dots,
             letter: before.letter,
+            fault,
             ..Token::default()
         });
     }
 
     fn glyphs(&mut self, line: usize, text: &str, glyphs: &[u8]) {
+        if self.is_skipped {
+            return;
+        }
         if glyphs.is_empty() && text.starts_with('$') && !text.trim_matches(['$', '0']).is_empty() {
             self.remark(line, text, "is no glyph, expected $1 to $255");
         }
@@ -152,11 +288,19 @@ impl Line {
     }
 
     /// Takes what a comment says to programs; it begins in line `line`.
-    pub fn comment(&mut self, line: usize, text: &[u8]) {
-        command::read(line, text, |note| match note {
+    pub fn comment(&mut self, line: usize, comment: &Comment) {
+        if self.is_skipped {
+            return;
+        }
+        command::read(line, comment.text(), |note| match note {
             Ok(note) => self.notes().add(note),
             Err(problem) => self.add_remark(problem),
         });
+        if comment.loses_commands {
+            let what = "opens a comment longer than the 64 KiB that are read; what it says to \
+                        programs behind them is lost";
+            self.remark(line, "{", what);
+        }
     }
 
     /// Where notes go that are found now.
@@ -171,7 +315,7 @@ impl Line {
     /// A variation of the last token, whose bracket opens in line `opened`.
     pub fn variation(&self, opened: usize) -> ScannedVariation {
         let replaces = self.tokens.len().saturating_sub(1);
-        let mut line = Line::default();
+        let mut line = Line { is_skipped: self.is_skipped, ..Line::default() };
         if self.awaits_a_move() {
             line.stop(opened, "(", "opens a variation between a number and its move");
         }

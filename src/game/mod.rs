@@ -1,21 +1,25 @@
 //! Reading games: from PGN text to tags, a start position and legal moves.
 //!
-//! Three steps: `scan` cuts a stream into games, each a main `line` of tokens with variations;
-//! `movetext` turns tokens into moves as written (with pgn-reader, and a tolerant reading of what
-//! it drops); `replay` plays them. What comments and glyphs say becomes `notes`, on the way. What cannot
+//! Four steps: `input` unpacks a stream; `scan` cuts it into games, each a main `line` of tokens with
+//! variations; tokens become moves as written, which nearly all are `plain`, and the rest is read by
+//! `movetext` (with pgn-reader, and a tolerant reading of what it drops); `replay` plays them. What comments and glyphs say becomes `notes`, on the way. What cannot
 //! be read becomes a [`Problem`] with its line and token; a game is shown up to its last good move, and
 //! the next game is read.
 
 mod bytes;
 mod clock;
 mod command;
+mod comment;
 mod date;
 mod glyph;
+mod input;
+mod letters;
 mod line;
 mod movetext;
 mod notes;
 mod outcome;
 mod pattern;
+mod plain;
 mod player;
 mod replay;
 mod scan;
@@ -30,20 +34,23 @@ mod wildcard;
 mod word;
 
 pub use clock::Clocks;
+pub use input::{Format, StreamError};
+pub use letters::{Language, Letters, ParseLettersError};
 pub use notes::{Eval, Notes};
 pub use outcome::Ending;
 pub use pattern::{ParsePatternError, PositionPattern};
 pub use player::{Players, PlayersError};
-pub use scan::{ScannedGame, Scanner};
+pub use scan::{Head, ScannedGame, Scanner};
 pub use select::{Absent, Moment, ParseMomentError, ParseSelectionError, Selection};
 pub use source::{Games, Source, SourceError};
 pub use start::{fen_in_hand, fen_position};
 pub use tag_test::{ParseTagTestError, TagTest};
 pub use variation::Branch;
-pub use wanted::{ParsePlyRangeError, PlyRange, Wanted};
+pub use wanted::{ParsePlyRangeError, PlyRange, Wanted, WantedGames};
 pub use word::{printable, shortened};
 
 use shakmaty::fen::Fen;
+use shakmaty::san::SanPlus;
 use shakmaty::variant::{Variant, VariantPosition};
 use shakmaty::{Bitboard, ByColor, ByRole, Color, EnPassantMode, Move, Position, Setup};
 
@@ -81,7 +88,7 @@ pub struct Game {
 #[derive(Clone, Debug)]
 pub struct Ply {
     /// In standard algebraic notation, with `+` or `#`.
-    pub san: String,
+    pub san: SanPlus,
     pub played: Move,
     pub after: VariantPosition,
     /// What comments and glyphs say of it.
@@ -128,7 +135,12 @@ impl Problem {
 impl Game {
     /// Reads and replays a game that the scanner has cut out, number `number` of its file.
     pub fn read(scanned: ScannedGame, number: usize) -> Game {
-        replay::replay(scanned, number)
+        Game::read_in(scanned, number, Letters::Auto)
+    }
+
+    /// Like [`Game::read`], with the letters that its pieces have.
+    pub fn read_in(scanned: ScannedGame, number: usize, letters: Letters) -> Game {
+        replay::replay(scanned, number, letters)
     }
 
     /// A stretch of text that is no game.
@@ -237,8 +249,8 @@ impl Game {
 
     /// The move that led to the position after `ply` half-moves, if there are that many; none leads
     /// to the start.
-    pub fn san(&self, ply: usize) -> Option<&str> {
-        Some(self.plies.get(ply.checked_sub(1)?)?.san.as_str())
+    pub fn san(&self, ply: usize) -> Option<String> {
+        Some(self.plies.get(ply.checked_sub(1)?)?.san.to_string())
     }
 }
 

@@ -1,16 +1,17 @@
 //! Plays the moves of a scanned game and its variations, as far as they can be played.
 
-use shakmaty::san::{SanError, SanPlus};
+use shakmaty::san::{San, SanError, SanPlus, Suffix};
 use shakmaty::variant::{Variant, VariantPosition};
-use shakmaty::{Color, Move, Position, Setup};
+use shakmaty::{Color, File, Move, Position, Role, Setup};
 
-use super::line::{Line, Token};
-use super::movetext::{self, Reading, Written, tolerant};
+use super::letters::{Language, Letters};
+use super::line::{Line, Spelled, Token};
+use super::movetext::{self, Reading, Written};
 use super::word::ascii_dashes;
 use super::{Game, Notes, Ply, Problem, ScannedGame, Variation, start, tag};
 
 /// Replays `scanned`, the game of that number in its file.
-pub fn replay(scanned: ScannedGame, number: usize) -> Game {
+pub fn replay(scanned: ScannedGame, number: usize, letters: Letters) -> Game {
     let ScannedGame { line, tags, unread_tags, start_is_lost, mut main, .. } = scanned;
     let from_fen = tag(&tags, "FEN").is_some();
     let first = main.tokens.first();
@@ -18,7 +19,7 @@ pub fn replay(scanned: ScannedGame, number: usize) -> Game {
         _ if start_is_lost => None,
         (Ok(_), Some(first)) if !from_fen && first.number.is_some_and(|number| number != 1) => {
             let what = "goes on with a game whose beginning is not known";
-            main.problems.push(Problem::new(first.line, &first.text, what, true));
+            main.problems.push(Problem::new(first.line, &first.text(), what, true));
             None
         }
         (Ok(start), _) => Some(start),
@@ -34,7 +35,11 @@ pub fn replay(scanned: ScannedGame, number: usize) -> Game {
     let played = match start_is_known.then(|| start::position(variant, &start)) {
         Some(Ok(position)) => {
             let shift = numbering_shift(&position, &main.tokens);
-            Played::of(main, &position, 0, shift)
+            let letters = match letters {
+                Letters::Of(language) => language,
+                Letters::Auto => find_language(&mut main, &position, shift),
+            };
+            Played::of(main, &position, 0, Way { shift, letters })
         }
         Some(Err(error)) => Played::nothing(main, &error),
         None => Played { problems: main.problems, ..Played::default() },
@@ -57,6 +62,63 @@ pub fn replay(scanned: ScannedGame, number: usize) -> Game {
     }
 }
 
+/// The language whose letters a line is written in. It is English, unless a move has no meaning in
+/// that, and all of the line can be played in one other language, or in several with the same
+/// moves. Where it can be played in several ways, it stops at the first move in question. A line is
+/// never read in two languages.
+fn find_language(main: &mut Line, start: &VariantPosition, shift: i64) -> Language {
+    let reads = |token: &Token, letters| token.written(letters).is_anything();
+    let is_foreign = |token: &Token| match &token.spelled {
+        Spelled::Plain(_) => false,
+        // A Dutch knight looks like a pawn.
+        Spelled::Other(text) => text.starts_with('P') || !reads(token, Language::ENGLISH),
+    };
+    let Some(foreign) = main.tokens.iter().position(is_foreign) else {
+        return Language::ENGLISH;
+    };
+    if main.tokens.iter().any(|token| token.fault.is_some()) {
+        return Language::ENGLISH;
+    }
+    let mut found: Option<(Language, Vec<Ply>)> = None;
+    for letters in Language::ALL {
+        if !main.tokens.iter().all(|token| reads(token, letters)) {
+            continue;
+        }
+        let mut plies = Vec::new();
+        let way = Way { shift, letters };
+        let reading = movetext::read(main, letters);
+        if play(start, &main.tokens, &reading, way, &mut plies).is_some() {
+            continue;
+        }
+        let is_same = |(a, b): (&Ply, &Ply)| a.played == b.played;
+        match &found {
+            None => found = Some((letters, plies)),
+            Some((_, known)) if known.iter().zip(&plies).all(is_same) => {}
+            Some(_) => {
+                let what = "means one move in one language and another in another, and all of the \
+                            game can be played in both";
+                main.tokens[foreign].fault = Some(what);
+                return Language::ENGLISH;
+            }
+        }
+    }
+    let Some((letters, _)) = found.filter(|(letters, _)| !letters.is_english()) else {
+        return Language::ENGLISH;
+    };
+    let token = &main.tokens[foreign];
+    let (line, text) = (token.line, token.text().into_owned());
+    main.remark(line, &text, &format!("and the other moves have {letters} letters"));
+    letters
+}
+
+/// How the tokens of a game are to be understood.
+#[derive(Clone, Copy)]
+struct Way {
+    /// What the numbers of the text are ahead of the position's.
+    shift: i64,
+    letters: Language,
+}
+
 /// Half-moves that few games have more of.
 const USUAL_LENGTH: usize = 256;
 
@@ -70,19 +132,16 @@ struct Played {
 
 impl Played {
     /// Plays `line` and its variations from `start`, which is `ply` half-moves from the game's
-    /// start. Its numbers are `shift` ahead of the position's. Calls itself as deep as variations
-    /// lie within each other, which the scanner bounds.
-    fn of(line: Line, start: &VariantPosition, ply: usize, shift: i64) -> Played {
-        let Line { mut tokens, movetext, variations, mut problems, .. } = line;
-        let reading = movetext::read(&tokens, &movetext);
+    /// start. Calls itself as deep as variations lie within each other, which the scanner bounds.
+    fn of(line: Line, start: &VariantPosition, ply: usize, way: Way) -> Played {
+        let reading = movetext::read(&line, way.letters);
+        let Line { mut tokens, variations, mut problems, .. } = line;
         let mut plies = Vec::with_capacity(tokens.len().min(USUAL_LENGTH));
-        problems.extend(match start.clone() {
-            // Most games are of standard chess, which is told here, not at every question to the rules.
-            VariantPosition::Chess(start) => play(start, &tokens, &reading, shift, &mut plies),
-            start => play(start, &tokens, &reading, shift, &mut plies),
-        });
+        problems.extend(play(start, &tokens, &reading, way, &mut plies));
         for (ply, token) in plies.iter_mut().zip(&mut tokens) {
-            ply.notes = token.notes.take().map(|notes| *notes).unwrap_or_default();
+            if let Some(notes) = token.notes.take() {
+                ply.notes = *notes;
+            }
         }
         // Behind the last good move it is not known what a variation would replace.
         let (attached, left_out): (Vec<_>, Vec<_>) =
@@ -103,7 +162,7 @@ impl Played {
                 let before = index.checked_sub(1).map_or(start, |index| &plies[index].after);
                 let ply = ply + index;
                 let Played { plies, variations, mut problems } =
-                    Played::of(variation.line, before, ply, shift);
+                    Played::of(variation.line, before, ply, way);
                 problems.sort_by_key(|problem| problem.line);
                 Variation { ply, plies, variations, problems }
             })
@@ -116,7 +175,7 @@ impl Played {
         let mut problems = line.problems;
         if let Some(first) = line.tokens.first() {
             let what = format!("cannot be played from the FEN: {error}");
-            problems.push(Problem::new(first.line, &first.text, &what, true));
+            problems.push(Problem::new(first.line, &first.text(), &what, true));
         }
         Played { problems, ..Played::default() }
     }
@@ -124,24 +183,38 @@ impl Played {
 
 /// Plays move by move into `plies`; gives what stopped it. Where a number shows that a move is
 /// missing, the moves since the last number that fits are taken back: each may be another one's.
-fn play<P: Position + Clone + Into<VariantPosition>>(
+fn play(
+    start: &VariantPosition,
+    tokens: &[Token],
+    reading: &Reading,
+    way: Way,
+    plies: &mut Vec<Ply>,
+) -> Option<Problem> {
+    match start.clone() {
+        // Most games are of standard chess, which is told here, not at every question to the rules.
+        VariantPosition::Chess(start) => play_from(start, tokens, reading, way, plies),
+        start => play_from(start, tokens, reading, way, plies),
+    }
+}
+
+fn play_from<P: Position + Clone + Into<VariantPosition>>(
     mut position: P,
     tokens: &[Token],
     reading: &Reading,
-    shift: i64,
+    way: Way,
     plies: &mut Vec<Ply>,
 ) -> Option<Problem> {
     let mut certain = 0;
     for (index, token) in tokens.iter().enumerate() {
-        let stop = |what: &str| Some(Problem::new(token.line, &token.text, what, true));
-        if token.number.is_none() && ascii_dashes(&token.text).starts_with("-O") {
+        let stop = |what: &str| Some(Problem::new(token.line, &token.text(), what, true));
+        if is_torn_castling(token) {
             // The torn end of a long castling: what went before is no short one.
             plies.pop();
         }
         if let Some(fault) = token.fault {
             return stop(fault);
         }
-        let expected = i64::from(position.fullmoves().get()) + shift;
+        let expected = i64::from(position.fullmoves().get()) + way.shift;
         if let Some(found) = token.number.filter(|found| i64::from(*found) != expected) {
             plies.truncate(certain);
             return stop(&format!("is numbered {found}, expected {expected}"));
@@ -154,28 +227,54 @@ fn play<P: Position + Clone + Into<VariantPosition>>(
             certain = plies.len();
         }
         if let Some(letter) = token.letter
-            && legal(&position, &tolerant(&format!("{letter}{}", token.text))).is_ok()
+            && let text = format!("{letter}{}", token.text())
+            && legal(&position, &movetext::tolerant(&text, way.letters)).is_ok()
         {
             return stop(&format!("follows the letter {letter}, which may be its piece"));
         }
-        let Some(written) = reading.written.get(index) else {
+        if index >= reading.certain {
             return stop("cannot be read for certain");
-        };
-        let played = match legal(&position, written) {
+        }
+        let written = token.written(way.letters);
+        let played = match legal(&position, &written) {
             Ok(played) => played,
             Err(what) => return stop(what),
         };
-        let san = SanPlus::from_move_and_play_unchecked(&mut position, played);
-        plies.push(Ply {
-            san: san.to_string(),
-            played,
-            after: position.clone().into(),
-            notes: Notes::default(),
-        });
+        let san = match token.spelled {
+            Spelled::Plain(plain) if way.letters.is_english() && is_shortest(plain.san, played) => {
+                plain.san
+            }
+            _ => San::from_move(&position, played),
+        };
+        position.play_unchecked(played);
+        let san = SanPlus { san, suffix: Suffix::from_position(&position) };
+        plies.push(Ply { san, played, after: position.clone().into(), notes: Notes::default() });
     }
     let last = tokens.last().filter(|_| !reading.is_certain)?;
     let what = "is followed by something that may be a move";
-    Some(Problem::new(last.line, &last.text, what, true))
+    Some(Problem::new(last.line, &last.text(), what, true))
+}
+
+/// Whether a token is the torn end of a long castling (`-O`).
+fn is_torn_castling(token: &Token) -> bool {
+    let Spelled::Other(text) = &token.spelled else {
+        return false;
+    };
+    token.number.is_none() && ascii_dashes(text).starts_with("-O")
+}
+
+/// Whether the plain word of a move, which can mean no other, is its shortest form: it names no
+/// square that the piece comes from, but for a pawn's file, and says whether it captures.
+fn is_shortest(san: San, played: Move) -> bool {
+    match san {
+        San::Normal { role, file, rank, capture, .. } => {
+            capture == played.is_capture()
+                && rank.is_none()
+                && (role == Role::Pawn || file.is_none())
+        }
+        San::Castle(_) => true,
+        San::Put { .. } | San::Null => false,
+    }
 }
 
 /// What the numbers of the text are ahead of the position's. Texts count on from a FEN, from 1, or
@@ -194,14 +293,42 @@ fn legal(position: &impl Position, written: &Written) -> Result<Move, &'static s
         return Err("is a null move, which no position can show");
     }
     let by_squares = written.uci.as_ref().and_then(|uci| uci.to_move(position).ok());
+    let by_files = || written.files.map(|files| by_files(position, files));
     match (&written.san, by_squares) {
-        (Some(san), by_squares) => match (san.to_move(position), by_squares) {
+        (Some(san), by_squares) => match (to_move(position, *san), by_squares) {
             (Ok(played), _) | (Err(_), Some(played)) => Ok(played),
             (Err(SanError::AmbiguousSan), None) => Err("can be more than one legal move"),
             (Err(SanError::IllegalSan), None) => Err("is no legal move"),
         },
         (None, Some(played)) => Ok(played),
         (None, None) if written.uci.is_some() => Err("is no legal move"),
-        (None, None) => Err("is no move"),
+        (None, None) => by_files().unwrap_or(Err("is no move")),
+    }
+}
+
+/// The move that is written, a capture with its `x` or without.
+fn to_move(position: &impl Position, san: San) -> Result<Move, SanError> {
+    match (san.to_move(position), san) {
+        (
+            Err(SanError::IllegalSan),
+            San::Normal { role, file, rank, capture: false, to, promotion },
+        ) if role != Role::Pawn || file.is_some() => {
+            San::Normal { role, file, rank, capture: true, to, promotion }.to_move(position)
+        }
+        (result, _) => result,
+    }
+}
+
+/// The one capture of a pawn that goes from one file to another.
+fn by_files(position: &impl Position, (from, to): (File, File)) -> Result<Move, &'static str> {
+    let moves = position.legal_moves();
+    let mut captures = moves.iter().filter(|m| {
+        let goes = |square: shakmaty::Square| square.file() == from && m.to().file() == to;
+        m.role() == Role::Pawn && m.is_capture() && m.from().is_some_and(goes)
+    });
+    match (captures.next(), captures.next()) {
+        (Some(played), None) => Ok(*played),
+        (Some(_), Some(_)) => Err("can be more than one legal move"),
+        (None, _) => Err("is no legal move"),
     }
 }

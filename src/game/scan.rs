@@ -6,17 +6,24 @@
 //! Blank lines and odd tags end nothing. What may hide a move becomes a token with a fault, at
 //! which the replay stops.
 
-use std::io::{self, BufRead};
+use std::io::{self, Read};
 use std::mem;
 
-use super::bytes::Bytes;
+use super::bytes::{Bytes, LONGEST_BRACKET};
+use super::comment::Comment;
+use super::input::StreamError;
 use super::line::{Line, ScannedVariation};
-use super::word::{Word, classify, decoded, is_harmless, parse_tag};
-use super::{Problem, movetext};
+use super::plain::{self, Plain};
+use super::word::{Word, classify, decoded, is_harmless, parse_tag, shortened};
+use super::{LONGEST_TOKEN, Problem, movetext};
 
 /// One game as it stands in the text.
 #[derive(Debug, Default)]
 pub struct ScannedGame {
+    /// The game's number in its text, from 1; 0 as long as it is not known to be one.
+    pub number: usize,
+    /// Whether it was not picked, and nothing more is known of it.
+    pub is_skipped: bool,
     /// The line where the game begins, from 1.
     pub line: usize,
     /// Name and value of the tags that could be read, in order.
@@ -29,19 +36,48 @@ pub struct ScannedGame {
     pub main: Line,
     /// The variations that are open, from the outermost.
     open: Vec<ScannedVariation>,
-    /// How many more are open, too deep to be kept.
+    /// How many more are open that are not kept, and the line of the first of them.
     deeper: usize,
+    deeper_from: usize,
+    /// How much is kept of variations: how many there are, and tokens and problems of theirs.
+    aside: usize,
     /// Whether a blank line or a comment came after the last tag.
     gap: bool,
 }
 
-/// Gives the games of a stream one after the other.
-pub struct Scanner<R> {
+/// What is known of a game before its moves are read.
+#[derive(Clone, Copy, Debug)]
+pub struct Head<'a> {
+    /// The game's number in its file, from 1.
+    pub number: usize,
+    /// The line where the game begins, from 1.
+    pub line: usize,
+    /// Name and value, in the order of the file.
+    pub tags: &'a [(String, String)],
+}
+
+/// Picks every game.
+pub type All = fn(&Head) -> bool;
+
+/// See [`All`].
+pub fn all(_: &Head) -> bool {
+    true
+}
+
+/// Gives the games of a stream one after the other. Of those that `pick` does not want, only what
+/// tells where the next one begins is looked at.
+pub struct Scanner<R, P = All> {
     bytes: Bytes<R>,
+    pick: P,
+    /// How many games have begun.
+    games: usize,
     /// The game that has begun when the one before was given out.
     begun: Option<ScannedGame>,
     /// Unreadable tags after moves: of the next game if a tag follows, else of this one.
     stray_tags: Vec<(usize, String)>,
+    /// Whether there is nothing more to read; then why, unless that has been told.
+    is_over: bool,
+    error: Option<io::Error>,
 }
 
 /// Whether a piece of text begins the next game, which then stands in `Scanner::begun`.
@@ -54,25 +90,87 @@ enum Next {
 /// How deep variations may lie within each other; what lies deeper is left out.
 const DEEPEST: usize = 32;
 
+/// How much of all variations of a game is kept: as many moves as some dozens of games have.
+const MOST_ASIDE: usize = 50_000;
+
+/// How many tags of a game are read. Files have some twenty.
+const MOST_TAGS: usize = 1000;
+
 /// Tags that begin a section; one of them within a comment shows that a brace was forgotten.
 const FIRST_TAGS: [&str; 10] =
     ["Event", "Site", "Date", "Round", "White", "Black", "Result", "FEN", "SetUp", "Variant"];
 
-impl<R: BufRead> Scanner<R> {
+impl<R: Read> Scanner<R> {
     /// Scans `reader` from its beginning, which is line 1.
     pub fn new(reader: R) -> Scanner<R> {
-        Scanner { bytes: Bytes::new(reader), begun: None, stray_tags: Vec::new() }
+        Scanner::picking(reader, all)
+    }
+}
+
+impl<R: Read, P: FnMut(&Head) -> bool> Scanner<R, P> {
+    /// Like [`Scanner::new`], and asks of each game whether it is wanted.
+    pub fn picking(reader: R, pick: P) -> Scanner<R, P> {
+        Scanner {
+            bytes: Bytes::new(reader),
+            pick,
+            games: 0,
+            begun: None,
+            stray_tags: Vec::new(),
+            is_over: false,
+            error: None,
+        }
+    }
+
+    /// How many games there were until now.
+    pub fn games(&self) -> usize {
+        self.games
+    }
+
+    /// The end of a packed stream, as a problem of what comes last.
+    pub fn problem(&self, error: StreamError) -> Problem {
+        let how = if error.is_cut { "ends early" } else { "is damaged" };
+        let what = format!("is how the file is packed, and its stream {how} behind this line");
+        Problem::new(self.bytes.line, &error.format.to_string(), &what, true)
     }
 
     fn next_game(&mut self) -> io::Result<Option<ScannedGame>> {
+        if self.is_over {
+            return self.error.take().map_or(Ok(None), Err);
+        }
         let mut game = self.begun.take();
+        let read = self.read_game(&mut game);
+        if read.is_err() {
+            self.is_over = true;
+        }
+        if let (Some(game), None) = (&mut game, &self.begun) {
+            game.take_stray(&mut self.stray_tags);
+        }
+        let Some(mut game) = game else {
+            return read.map(|()| None);
+        };
+        self.ask(&mut game);
+        if let Err(error) = read {
+            match StreamError::of(&error) {
+                // What is behind may be more of this game.
+                Some(error) if !game.has_ended() && !game.is_skipped => {
+                    let problem = self.problem(error);
+                    game.main.problem(problem);
+                }
+                _ => self.error = Some(error),
+            }
+        }
+        Ok(Some(game.closed()))
+    }
+
+    /// Reads up to where the next game has begun, or the text has ended.
+    fn read_game(&mut self, game: &mut Option<ScannedGame>) -> io::Result<()> {
         let mut blank = false;
         while let Some(byte) = self.bytes.peek()? {
             let was_blank = mem::take(&mut blank);
             let next = match byte {
                 b'\n' | b'\r' => {
                     self.bytes.bump()?;
-                    if let (true, Some(game)) = (was_blank, &mut game) {
+                    if let (true, Some(game)) = (was_blank, &mut *game) {
                         game.gap = true;
                     }
                     blank = true;
@@ -85,34 +183,46 @@ impl<R: BufRead> Scanner<R> {
                     continue;
                 }
                 b'%' if self.bytes.at_first_column => {
-                    self.bytes.rest_of_line()?;
+                    self.bytes.until(b'\n', 0)?;
                     continue;
                 }
-                b'[' => self.bracket(&mut game)?,
-                b'{' => self.comment(&mut game)?,
+                b'[' => self.bracket(game)?,
+                b'{' => self.comment(game)?,
                 b';' => {
-                    let line = self.bytes.line;
-                    let text = self.bytes.rest_of_line()?;
-                    if let Some(game) = &mut game {
-                        game.comment(line, &text[1..]);
-                    }
+                    self.comment_line(game)?;
                     continue;
                 }
-                b'(' | b')' => self.variation(&mut game)?,
-                b'<' => self.angle(&mut game)?,
-                _ => self.word(&mut game)?,
+                b'(' | b')' => self.variation(game)?,
+                b'<' => self.angle(game)?,
+                _ => self.word(game)?,
             };
             if next == Next::NewGame {
-                match game {
-                    Some(game) => return Ok(Some(game.closed())),
-                    None => game = self.begun.take(),
+                if game.is_some() {
+                    return Ok(());
                 }
+                *game = self.begun.take();
+            }
+            if let Some(game) = game
+                && game.number == 0
+                && (game.has_moves() || game.has_ended())
+            {
+                self.ask(game);
             }
         }
-        if let Some(game) = &mut game {
-            game.take_stray(&mut self.stray_tags);
+        self.is_over = true;
+        Ok(())
+    }
+
+    /// Numbers a game, as soon as it is known to be one, and asks whether it is wanted.
+    fn ask(&mut self, game: &mut ScannedGame) {
+        if game.number > 0 || game.is_no_game() {
+            return;
         }
-        Ok(game.map(ScannedGame::closed))
+        self.games += 1;
+        game.number = self.games;
+        if !(self.pick)(&Head { number: game.number, line: game.line, tags: &game.tags }) {
+            game.skip();
+        }
     }
 
     /// Reads what a `[` opens.
@@ -120,14 +230,22 @@ impl<R: BufRead> Scanner<R> {
         let line = self.bytes.line;
         let in_place = self.bytes.at_line_start
             || game.as_ref().is_none_or(|game| !game.has_moves() || game.has_ended());
-        let raw = self.bytes.bracket()?;
+        let kept = self.bytes.bracket()?;
+        let mut raw = decoded(&kept.text);
+        if kept.is_cut {
+            raw.to_mut().push('…');
+        }
         match parse_tag(&raw) {
             Some((name, value)) if in_place => return Ok(self.tag(game, line, name, value)),
             None if in_place && !is_harmless(&raw) => {
                 // After moves it is not yet clear whether the next game begins here.
                 let game = game.get_or_insert_with(|| ScannedGame::at(line));
                 game.stop_variations(line, &raw, "is no move");
-                self.stray_tags.push((line, raw));
+                // Those that change anything come first of all that are told.
+                let most = if hides_much(&raw) { 2 * MOST_TAGS } else { MOST_TAGS };
+                if self.stray_tags.len() < most {
+                    self.stray_tags.push((line, raw.into_owned()));
+                }
                 if !game.has_moves() && !game.has_ended() {
                     game.take_stray(&mut self.stray_tags);
                 }
@@ -180,34 +298,36 @@ impl<R: BufRead> Scanner<R> {
     fn comment(&mut self, game: &mut Option<ScannedGame>) -> io::Result<Next> {
         let opened = self.bytes.line;
         self.bytes.bump()?;
-        let mut text = Vec::new();
-        let mut line_start = 0;
+        let mut comment = Comment::new(game.as_ref().is_some_and(|game| !game.is_skipped));
         loop {
             let line = self.bytes.line;
+            let unread = self.bytes.unread()?;
+            let length = memchr::memchr3(b'}', b'\n', b'\r', unread).unwrap_or(unread.len());
+            comment.add(&unread[..length]);
+            let is_more = length == unread.len() && length > 0;
+            self.bytes.pass(length);
+            if is_more {
+                continue;
+            }
             match self.bytes.bump()? {
                 Some(b'}') => {
-                    if let Some(game) = game.as_mut().filter(|_| text.contains(&b'{')) {
-                        // Either this comment or the one within it was never closed.
-                        game.stop(opened, "{", "opens a comment with another one in it");
-                    }
                     if let Some(game) = game {
-                        game.comment(opened, &text);
+                        if comment.has_brace {
+                            // Either this comment or the one within it was never closed.
+                            game.stop(opened, "{", "opens a comment with another one in it");
+                        }
+                        game.comment(opened, &comment);
                     }
                     return Ok(Next::SameGame);
                 }
-                Some(b'\n') => {
-                    let last = decoded(text[line_start..].trim_ascii());
-                    let tag = parse_tag(&last);
+                Some(_) => {
                     if let Some((name, value)) =
-                        tag.filter(|(name, _)| FIRST_TAGS.contains(&name.as_str()))
+                        comment.end_line().filter(|(name, _)| FIRST_TAGS.contains(&name.as_str()))
                     {
                         self.begun = Some(self.first_tag(line, name, value));
                         break;
                     }
-                    text.push(b'\n');
-                    line_start = text.len();
                 }
-                Some(byte) => text.push(byte),
                 None => break,
             }
         }
@@ -217,12 +337,32 @@ impl<R: BufRead> Scanner<R> {
         let what = "opens a comment that is never closed";
         let problem = Problem::new(opened, "{", what, hides_moves);
         match self.begun.as_mut().filter(|_| game.is_none()) {
-            Some(begun) => begun.main.problems.push(problem),
-            None => {
-                game.get_or_insert_with(|| ScannedGame::at(opened)).main.problems.push(problem);
-            }
+            Some(begun) => begun.main.problem(problem),
+            None => game.get_or_insert_with(|| ScannedGame::at(opened)).main.problem(problem),
         }
         Ok(if self.begun.is_some() { Next::NewGame } else { Next::SameGame })
+    }
+
+    /// Reads a comment from `;` to the end of the line.
+    fn comment_line(&mut self, game: &mut Option<ScannedGame>) -> io::Result<()> {
+        let line = self.bytes.line;
+        self.bytes.pass(1);
+        let mut comment = Comment::new(game.as_ref().is_some_and(|game| !game.is_skipped));
+        loop {
+            let unread = self.bytes.unread()?;
+            let found = memchr::memchr2(b'\n', b'\r', unread);
+            let length = found.unwrap_or(unread.len());
+            comment.add(&unread[..length]);
+            let has_ended = found.is_some() || unread.is_empty();
+            self.bytes.pass(length);
+            if has_ended {
+                break;
+            }
+        }
+        if let Some(game) = game {
+            game.comment(line, &comment);
+        }
+        Ok(())
     }
 
     /// Reads a bracket that opens or closes a variation.
@@ -241,7 +381,7 @@ impl<R: BufRead> Scanner<R> {
     /// Reads `<…>`: the standard keeps it for later, and pages from the web leave `<br>`.
     fn angle(&mut self, game: &mut Option<ScannedGame>) -> io::Result<Next> {
         let line = self.bytes.line;
-        let mut raw = self.bytes.until(|byte| b">\r\n".contains(&byte))?;
+        let mut raw = self.bytes.until(b'>', LONGEST_BRACKET)?.text;
         if self.bytes.peek()? == Some(b'>') {
             raw.extend(self.bytes.bump()?);
         }
@@ -254,21 +394,41 @@ impl<R: BufRead> Scanner<R> {
     fn word(&mut self, game: &mut Option<ScannedGame>) -> io::Result<Next> {
         let line = self.bytes.line;
         let at_line_start = self.bytes.at_line_start;
-        let raw = decoded(&self.bytes.word()?);
+        let word = self.bytes.word()?;
+        if let Some(game) = game {
+            // Where the game ends is said by none of the words in brackets.
+            if game.is_skipped && game.is_in_variation() {
+                return Ok(Next::SameGame);
+            }
+            if !word.is_cut
+                && let Some(plain) = plain::read(word.text)
+                && !game.may_end_at(plain, at_line_start)
+            {
+                game.take_plain(line, word.text, plain, &mut self.stray_tags);
+                return Ok(Next::SameGame);
+            }
+        }
+        let is_cut = word.is_cut;
+        let mut raw = decoded(word.text).into_owned();
+        if is_cut {
+            raw = shortened(&raw, LONGEST_TOKEN);
+        }
         let text = raw.trim_start_matches('\u{feff}');
         if text.is_empty() {
+            // It is no part of the text.
             self.bytes.at_line_start = at_line_start;
             return Ok(Next::SameGame);
         }
-        if let Some(game) = game.as_mut().filter(|game| !game.open.is_empty()) {
-            if game.deeper == 0 {
-                let words = text.split_whitespace().flat_map(classify);
-                game.innermost().take(line, text, words);
-            }
+        let words = || {
+            let words = text.split_whitespace().flat_map(classify);
+            is_cut.then_some(Word::Unknown).into_iter().chain(words.filter(move |_| !is_cut))
+        };
+        if let Some(game) = game.as_mut().filter(|game| game.is_in_variation()) {
+            game.in_variation(line, |variation| variation.take(line, text, words()));
             return Ok(Next::SameGame);
         }
         // Blanks that are not ASCII (a no-break space) may stand within.
-        let words: Vec<Word> = text.split_whitespace().flat_map(classify).collect();
+        let words: Vec<Word> = words().collect();
         let goes_on = || {
             words.iter().any(|word| match word {
                 Word::Number { .. } => true,
@@ -279,7 +439,7 @@ impl<R: BufRead> Scanner<R> {
         let from_one = matches!(words.first(), Some(Word::Number { number: 1, dots: 1 }));
         let begins = |game: &ScannedGame| {
             let again = from_one && at_line_start && !game.main.awaits_a_move();
-            game.has_ended() && goes_on() || again && game.main.tokens.len() > 1
+            game.has_ended() && goes_on() || again && game.main.count > 1
         };
         if game.as_ref().is_some_and(begins) {
             let mut next = ScannedGame::at(line);
@@ -287,7 +447,7 @@ impl<R: BufRead> Scanner<R> {
             if !at_line_start && !matches!(words.first(), Some(Word::Number { .. })) {
                 // In the middle of a line they may go on with the game that seemed to end.
                 let what = "goes on behind a result";
-                next.main.problems.push(Problem::new(line, text, what, true));
+                next.main.problem(Problem::new(line, text, what, true));
                 next.start_is_lost = true;
             }
             next.main.take(line, text, words);
@@ -303,7 +463,7 @@ impl<R: BufRead> Scanner<R> {
     }
 }
 
-impl<R: BufRead> Iterator for Scanner<R> {
+impl<R: Read, P: FnMut(&Head) -> bool> Iterator for Scanner<R, P> {
     type Item = io::Result<ScannedGame>;
 
     fn next(&mut self) -> Option<io::Result<ScannedGame>> {
@@ -321,11 +481,72 @@ impl ScannedGame {
         self.tags.is_empty()
             && self.unread_tags.is_empty()
             && !self.has_ended()
-            && self.main.tokens.iter().all(|token| token.number.is_none() && !token.is_move())
+            && !self.main.is_played
+    }
+
+    /// Keeps no more than what tells where the game ends.
+    fn skip(&mut self) {
+        self.is_skipped = true;
+        self.main.skip();
+        for variation in &mut self.open {
+            variation.line.skip();
+        }
+    }
+
+    /// Whether a plain word may begin the next game, so that more must be looked at.
+    #[inline]
+    fn may_end_at(&self, word: Plain, at_line_start: bool) -> bool {
+        let is_first = |number: u32, dots: usize| at_line_start && number == 1 && dots == 1;
+        !self.is_in_variation()
+            && (self.has_ended()
+                || match word {
+                    Plain::Number { number, dots } => is_first(number, dots),
+                    Plain::NumberedMove { number, dots, .. } => is_first(number, dots),
+                    Plain::Move(_) | Plain::Result(_) => false,
+                })
+    }
+
+    /// Takes a plain word that goes on with this game.
+    #[inline]
+    fn take_plain(
+        &mut self,
+        line: usize,
+        text: &[u8],
+        plain: Plain,
+        stray: &mut Vec<(usize, String)>,
+    ) {
+        if self.is_in_variation() {
+            self.in_variation(line, |variation| variation.take_plain(line, text, plain));
+        } else {
+            if !stray.is_empty() {
+                self.take_stray(stray);
+            }
+            self.main.take_plain(line, text, plain);
+        }
+    }
+
+    /// Goes on with the innermost variation, as long as so much is kept.
+    fn in_variation(&mut self, line: usize, go_on: impl FnOnce(&mut Line)) {
+        if self.deeper > 0 || self.aside > MOST_ASIDE {
+            return;
+        }
+        let innermost = self.innermost();
+        let kept = |line: &Line| line.tokens.len() + line.problems.len();
+        let before = kept(innermost);
+        go_on(innermost);
+        self.aside += kept(self.innermost()).saturating_sub(before);
+        if self.aside > MOST_ASIDE {
+            let what = "comes behind the 50000 half-moves of variations that are read of a game";
+            self.stop_variations(line, "(", what);
+        }
     }
 
     fn has_moves(&self) -> bool {
-        !self.main.tokens.is_empty() || !self.open.is_empty()
+        self.main.count > 0 || self.is_in_variation()
+    }
+
+    fn is_in_variation(&self) -> bool {
+        !self.open.is_empty() || self.deeper > 0
     }
 
     fn has_ended(&self) -> bool {
@@ -352,26 +573,39 @@ impl ScannedGame {
         }
     }
 
-    fn comment(&mut self, line: usize, text: &[u8]) {
+    fn comment(&mut self, line: usize, comment: &Comment) {
         self.gap = true;
-        if self.deeper == 0 {
-            self.innermost().comment(line, text);
+        if self.is_in_variation() {
+            self.in_variation(line, |variation| variation.comment(line, comment));
+        } else {
+            self.main.comment(line, comment);
         }
     }
 
     fn open_variation(&mut self, line: usize) {
-        if self.open.len() == DEEPEST {
-            let what = "opens a variation that lies too deep in others; it is left out";
+        let what = match self.open.len() {
+            DEEPEST => "opens a variation that lies too deep in others; it is left out",
+            _ if self.aside >= MOST_ASIDE => {
+                "opens a variation behind the 50000 half-moves of them that are read of a game; \
+                 it is left out"
+            }
+            _ if self.deeper > 0 => "",
+            _ => {
+                let parent = self.innermost();
+                if parent.count == 0 {
+                    parent.stop(line, "(", "opens a variation before any move");
+                }
+                let variation = parent.variation(line);
+                self.open.push(variation);
+                self.aside += usize::from(!self.is_skipped);
+                return;
+            }
+        };
+        if self.deeper == 0 {
             self.innermost().remark(line, "(", what);
-            self.deeper += 1;
-            return;
+            self.deeper_from = line;
         }
-        let parent = self.innermost();
-        if parent.tokens.is_empty() {
-            parent.stop(line, "(", "opens a variation before any move");
-        }
-        let variation = parent.variation(line);
-        self.open.push(variation);
+        self.deeper += 1;
     }
 
     fn close_variation(&mut self, line: usize) {
@@ -388,12 +622,19 @@ impl ScannedGame {
     fn tag(&mut self, line: usize, name: String, value: String) {
         self.gap = false;
         match super::tag(&self.tags, &name) {
-            None => self.tags.push((name, value)),
+            None if self.tags.len() < MOST_TAGS => self.tags.push((name, value)),
+            None => {
+                let raw = format!("[{name} \"{value}\"]");
+                let loses_start = says_start(&name);
+                self.start_is_lost |= loses_start;
+                let what = "comes behind the 1000 tags that are read of a game";
+                self.main.problem(Problem::new(line, &raw, what, loses_start));
+            }
             Some(first) => {
                 let raw = format!("[{name} \"{value}\"]");
                 if says_start(&name) && first != value {
                     let what = "says something else than the tag of that name before it";
-                    self.main.problems.push(Problem::new(line, &raw, what, true));
+                    self.main.problem(Problem::new(line, &raw, what, true));
                     self.start_is_lost = true;
                 } else {
                     self.main.remark(line, &raw, "repeats a tag; the first one counts");
@@ -405,16 +646,22 @@ impl ScannedGame {
     /// Takes unreadable tags over.
     fn take_stray(&mut self, tags: &mut Vec<(usize, String)>) {
         for (line, raw) in tags.drain(..) {
-            let what = "is no tag, expected [Name \"Value\"]";
-            if self.has_moves() || !raw.ends_with(']') && raw.contains("1.") {
+            let what = if is_cut(&raw) {
+                "is longer than the 8 KiB of a tag that are read"
+            } else {
+                "is no tag, expected [Name \"Value\"]"
+            };
+            if self.has_moves() || may_hold_moves(&raw) {
                 // It may hold moves, or be the start of a game that is not this one.
                 self.stop(line, &raw, what);
                 continue;
             }
-            let says_start = says_start(&raw) || raw.matches('/').count() >= 7;
+            let says_start = may_say_start(&raw);
             self.start_is_lost |= says_start;
-            self.main.problems.push(Problem::new(line, &raw, what, says_start));
-            self.unread_tags.push(raw);
+            self.main.problem(Problem::new(line, &raw, what, says_start));
+            if self.unread_tags.len() < MOST_TAGS {
+                self.unread_tags.push(raw);
+            }
         }
     }
 
@@ -429,13 +676,34 @@ impl ScannedGame {
 
     fn closed(mut self) -> ScannedGame {
         // It is not known where they end; so nothing of them is kept.
-        if let Some(outermost) = self.open.first() {
+        if self.is_in_variation() {
+            let opened = self.open.first().map_or(self.deeper_from, |outermost| outermost.opened);
             let what = "opens a variation that is never closed";
-            self.main.problems.push(Problem::new(outermost.opened, "(", what, true));
+            self.main.problem(Problem::new(opened, "(", what, true));
         }
         self.open.clear();
         self
     }
+}
+
+/// Whether what stands in a bracket was longer than what is kept of it.
+fn is_cut(raw: &str) -> bool {
+    raw.len() > LONGEST_BRACKET && raw.ends_with('…')
+}
+
+/// Whether moves may be a part of a tag that could not be read.
+fn may_hold_moves(raw: &str) -> bool {
+    !raw.ends_with(']') && (raw.contains("1.") || is_cut(raw))
+}
+
+/// Whether a tag that could not be read may say where a game starts.
+fn may_say_start(raw: &str) -> bool {
+    says_start(raw) || raw.matches('/').count() >= 7
+}
+
+/// Whether there is more in a tag that could not be read than words.
+fn hides_much(raw: &str) -> bool {
+    may_hold_moves(raw) || may_say_start(raw)
 }
 
 /// Whether a tag of that name, or a text that may hold one, says where a game starts.

@@ -1,15 +1,18 @@
-//! Where games come from: files, and the standard input.
+//! Where games come from: files, packed ones too, and the standard input.
 
 use std::fs::File;
-use std::io::{self, BufRead, BufReader};
+use std::io::{self, Read};
 use std::path::Path;
 
-use super::{Game, Problem, Scanner, Wanted, printable};
+use super::input::{Format, Input, StreamError};
+use super::scan::{All, Head};
+use super::{Game, Letters, Problem, Scanner, printable};
 
 /// A file of games that is open, or the standard input.
 pub struct Source {
     name: String,
-    reader: Box<dyn BufRead + Send>,
+    reader: Box<dyn Read + Send>,
+    letters: Letters,
 }
 
 /// Why a file gives no games. Each message begins with the file's name.
@@ -25,6 +28,14 @@ pub enum SourceError {
     Utf16 { name: String },
     #[error("{name}: is no text (byte {offset} is 0), expected games in PGN")]
     Binary { name: String, offset: usize },
+    #[error(
+        "{name}: is packed as {format}, expected games in PGN, plain or as zstd, gzip or bzip2"
+    )]
+    Packed { name: String, format: Format },
+    #[error("{name}: is {inner} packed as {outer} again, expected games in PGN within")]
+    PackedTwice { name: String, outer: Format, inner: Format },
+    #[error("{name}: {error}, and no game can be read before")]
+    Stream { name: String, error: StreamError },
     #[error("{name}: no game in it, {}", match problem {
         Some(problem) => format!("{problem}"),
         None => "expected tags or moves in PGN".to_owned(),
@@ -39,7 +50,8 @@ pub enum SourceError {
 }
 
 impl Source {
-    /// Opens a file, or the standard input for `-`, and looks at its first bytes.
+    /// Opens a file, or the standard input for `-`, and looks at its first bytes. Zstd, gzip and
+    /// bzip2 are unpacked on the way.
     ///
     /// # Errors
     /// When there is no such file, or it is a folder, empty, or no text that can be read.
@@ -55,114 +67,142 @@ impl Source {
         let failed = |error: io::Error| match error.kind() {
             io::ErrorKind::NotFound => SourceError::Missing { name: name.clone() },
             io::ErrorKind::IsADirectory => SourceError::Folder { name: name.clone() },
-            _ => SourceError::Io { name: name.clone(), error },
+            _ => SourceError::of(name.clone(), error),
         };
-        let mut reader: Box<dyn BufRead + Send> = if path == Path::new("-") {
-            Box::new(BufReader::with_capacity(BUFFER, io::stdin()))
+        let reader: Box<dyn Read + Send> = if path == Path::new("-") {
+            Box::new(io::stdin())
         } else {
             if path.is_dir() {
                 return Err(SourceError::Folder { name });
             }
-            Box::new(BufReader::with_capacity(BUFFER, File::open(path).map_err(&failed)?))
+            Box::new(File::open(path).map_err(&failed)?)
         };
-        let beginning = reader.fill_buf().map_err(&failed)?;
-        match beginning {
+        let Input { reader, beginning, format } = Input::new(reader).map_err(&failed)?;
+        let is_unpacked = matches!(format, Some(Format::Zstd | Format::Gzip | Format::Bzip2));
+        match (format, Format::of(&beginning)) {
+            (Some(outer), Some(inner)) if is_unpacked => {
+                return Err(SourceError::PackedTwice { name, outer, inner });
+            }
+            (Some(format), _) if !is_unpacked => return Err(SourceError::Packed { name, format }),
+            _ => {}
+        }
+        match &beginning[..] {
             [] => Err(SourceError::Empty { name }),
             [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..] => Err(SourceError::Utf16 { name }),
             _ => match beginning.iter().position(|byte| *byte == 0) {
                 Some(offset) => Err(SourceError::Binary { name, offset }),
-                None => Ok(Source { name, reader }),
+                None => Ok(Source { name, reader, letters: Letters::default() }),
             },
         }
     }
 
+    /// Reads the pieces' letters in another way than by their looks.
+    pub fn with_letters(self, letters: Letters) -> Source {
+        Source { letters, ..self }
+    }
+
     /// Reads the games one after the other, numbered from 1. Text that is no game is reported with
-    /// the game that follows; behind the last game, as a game of which nothing can be shown.
+    /// the game that follows; behind the last game, as a game of which nothing can be shown. So is
+    /// the early end of a packed stream, unless a game is in hand there: then that one is not
+    /// whole.
     pub fn games(self) -> Games {
+        self.games_where(super::scan::all)
+    }
+
+    /// The games that `pick` wants, by the same numbers. Each game is asked for before its moves
+    /// are read; those that are not picked are passed over.
+    pub fn games_where<P: FnMut(&Head) -> bool>(self, pick: P) -> Games<P> {
         Games {
             name: self.name,
-            scanner: Scanner::new(self.reader),
-            number: 0,
+            scanner: Scanner::picking(self.reader, pick),
+            letters: self.letters,
             strays: Vec::new(),
             has_ended: false,
+            is_cut_behind: false,
+        }
+    }
+}
+
+impl SourceError {
+    fn of(name: String, error: io::Error) -> SourceError {
+        match StreamError::of(&error) {
+            Some(error) => SourceError::Stream { name, error },
+            None => SourceError::Io { name, error },
         }
     }
 }
 
 /// The games of a [`Source`], read one by one.
-pub struct Games {
+pub struct Games<P = All> {
     name: String,
-    scanner: Scanner<Box<dyn BufRead + Send>>,
-    number: usize,
+    scanner: Scanner<Box<dyn Read + Send>, P>,
+    letters: Letters,
     strays: Vec<Problem>,
     has_ended: bool,
+    /// Whether the stream ended early, behind the last game.
+    is_cut_behind: bool,
 }
 
-impl Games {
-    /// How many games have come by, those that were not wanted too.
+impl<P: FnMut(&Head) -> bool> Games<P> {
+    /// How many games have been seen, those that were not picked too.
     pub fn seen(&self) -> usize {
-        self.number
+        self.scanner.games()
     }
 
-    /// The next game that is wanted. What its tags rule out is not replayed, and of a game that is not wanted
-    /// nothing is reported.
-    pub fn next_wanted(&mut self, wanted: &Wanted) -> Option<Result<Game, SourceError>> {
-        let name = || self.name.clone();
+    /// Whether the last game that was given is none, but tells that the stream ended early there.
+    pub fn is_cut_behind(&self) -> bool {
+        self.is_cut_behind
+    }
+}
+
+impl<P: FnMut(&Head) -> bool> Iterator for Games<P> {
+    type Item = Result<Game, SourceError>;
+
+    fn next(&mut self) -> Option<Result<Game, SourceError>> {
         while !self.has_ended {
             let scanned = match self.scanner.next() {
                 Some(Ok(scanned)) => scanned,
                 Some(Err(error)) => {
                     self.has_ended = true;
-                    return Some(Err(SourceError::Io { name: name(), error }));
+                    match StreamError::of(&error) {
+                        Some(error) if self.seen() > 0 => {
+                            self.strays.push(self.scanner.problem(error));
+                            self.is_cut_behind = true;
+                            break;
+                        }
+                        _ => return Some(Err(SourceError::of(self.name.clone(), error))),
+                    }
                 }
                 None => {
                     self.has_ended = true;
+                    if self.seen() == 0 {
+                        let problem = self.strays.drain(..).next();
+                        return Some(Err(SourceError::NoGames {
+                            name: self.name.clone(),
+                            problem,
+                        }));
+                    }
                     break;
                 }
             };
+            if scanned.is_skipped {
+                self.strays.clear();
+                continue;
+            }
             if scanned.is_no_game() {
                 let what = "begins a text that is no game";
                 let first = scanned.main.tokens.first();
-                self.strays.extend(first.map(|t| Problem::new(t.line, &t.text, what, false)));
+                self.strays.extend(first.map(|t| Problem::new(t.line, &t.text(), what, false)));
                 self.strays.extend(scanned.main.problems);
                 continue;
             }
-            self.number += 1;
-            let strays = std::mem::take(&mut self.strays);
-            if !wanted.takes_head(self.number, &scanned.tags) {
-                continue;
-            }
-            let mut game = Game::read(scanned, self.number);
-            if wanted.takes_game(&game) {
-                game.problems.splice(0..0, strays);
-                return Some(Ok(game));
-            }
+            let number = scanned.number;
+            let mut game = Game::read_in(scanned, number, self.letters);
+            game.problems.splice(0..0, self.strays.drain(..));
+            return Some(Ok(game));
         }
         let strays = std::mem::take(&mut self.strays);
-        match strays.first() {
-            _ if self.number == 0 => {
-                self.number = 1;
-                let problem = strays.into_iter().next();
-                Some(Err(SourceError::NoGames { name: name(), problem }))
-            }
-            None => None,
-            Some(first) => {
-                self.number += 1;
-                let game = Game::nothing(self.number, first.line, strays);
-                let is_wanted =
-                    wanted.takes_head(game.number, &game.tags) && wanted.takes_game(&game);
-                is_wanted.then_some(Ok(game))
-            }
-        }
+        let line = strays.first()?.line;
+        Some(Ok(Game::nothing(self.seen() + 1, line, strays)))
     }
 }
-
-impl Iterator for Games {
-    type Item = Result<Game, SourceError>;
-
-    fn next(&mut self) -> Option<Result<Game, SourceError>> {
-        self.next_wanted(&Wanted::default())
-    }
-}
-
-const BUFFER: usize = 64 * 1024;

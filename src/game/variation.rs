@@ -88,7 +88,7 @@ fn branches<'a>(line: &Branch, variations: &'a [Variation]) -> Vec<(Branch, &'a 
 
 /// What a variation that begins with `ply` is called.
 fn name(ply: &Ply) -> String {
-    let san = ply.san.to_ascii_lowercase();
+    let san = ply.san.to_string().to_ascii_lowercase();
     let san: String = san.chars().filter(|c| c.is_ascii_alphanumeric() || *c == '-').collect();
     format!("{}{}-{san}", ply.number(), ply.mover().char())
 }

@@ -5,7 +5,10 @@ use std::str::FromStr;
 
 use shakmaty::Position;
 
-use super::{Ending, Game, Players, PositionPattern, Selection, TagTest};
+use super::scan::Head;
+use super::{
+    Ending, Game, Games, Players, PositionPattern, Selection, Source, SourceError, TagTest,
+};
 
 /// Which games are wanted; all by default. A game must pass every test that is there.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -59,6 +62,55 @@ impl Wanted {
     /// Whether [`Wanted::takes_game`] can say no.
     pub fn needs_moves(&self) -> bool {
         self.plies.is_some() || self.checkmate || self.position.is_some()
+    }
+}
+
+impl Source {
+    /// The games that are wanted, one after the other, but for the limit: that is of all files together. What their
+    /// numbers and tags rule out is not replayed, and of games that are not wanted nothing is reported. Behind the
+    /// highest number that is asked for nothing is read.
+    pub fn wanted(self, wanted: &Wanted) -> WantedGames<'_> {
+        let pick: Pick = Box::new(|head| wanted.takes_head(head.number, head.tags));
+        WantedGames { wanted, games: self.games_where(pick), is_over: false }
+    }
+}
+
+type Pick<'a> = Box<dyn FnMut(&Head) -> bool + Send + 'a>;
+
+/// The games of a [`Source`] that are wanted.
+pub struct WantedGames<'a> {
+    wanted: &'a Wanted,
+    games: Games<Pick<'a>>,
+    is_over: bool,
+}
+
+impl WantedGames<'_> {
+    /// How many games have come by, those that were not wanted too.
+    pub fn seen(&self) -> usize {
+        self.games.seen()
+    }
+}
+
+impl Iterator for WantedGames<'_> {
+    type Item = Result<Game, SourceError>;
+
+    fn next(&mut self) -> Option<Result<Game, SourceError>> {
+        while !self.is_over {
+            let game = match self.games.next()? {
+                Ok(game) => game,
+                Err(error) => return Some(Err(error)),
+            };
+            let last = self.wanted.highest_number();
+            self.is_over = last.is_some_and(|last| game.number >= last);
+            let takes = |wanted: &Wanted| {
+                wanted.takes_head(game.number, &game.tags) && wanted.takes_game(&game)
+            };
+            // That a file is cut off is told whatever is wanted of it.
+            if takes(self.wanted) || self.games.is_cut_behind() {
+                return Some(Ok(game));
+            }
+        }
+        None
     }
 }
 

@@ -3,6 +3,8 @@
 //! A word that is not known to be harmless is never passed over: it may be a move, or a part of
 //! one, and what follows it would then be played from a position that the game never had.
 
+use std::borrow::Cow;
+
 use encoding_rs::WINDOWS_1252;
 
 use super::glyph;
@@ -117,7 +119,7 @@ fn result(word: &str) -> Option<&'static str> {
 
 /// Whether a word says that a player passes.
 pub fn is_null(word: &str) -> bool {
-    matches!(ascii_dashes(word).as_str(), "--" | "Z0" | "0000" | "@@@@")
+    matches!(ascii_dashes(word).as_str(), "--" | "Z0" | "0000" | "@@@@" | "null" | "pass")
 }
 
 /// `word` with every kind of dash and hyphen as `-`.
@@ -147,6 +149,9 @@ pub fn parse_tag(raw: &str) -> Option<(String, String)> {
     let named =
         !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-');
     let quoted = quoted.trim_start().strip_prefix('"')?.strip_suffix('"')?;
+    if named && !quoted.contains(['\\', '"']) {
+        return Some((name.to_owned(), printable(quoted)));
+    }
     let mut value = String::with_capacity(quoted.len());
     let mut characters = quoted.chars().peekable();
     while let Some(character) = characters.next() {
@@ -166,10 +171,10 @@ fn ends_escaped(quoted: &str) -> bool {
 }
 
 /// UTF-8 where the bytes are that, else Windows-1252, which is Latin-1 and a little more.
-pub fn decoded(bytes: &[u8]) -> String {
+pub fn decoded(bytes: &[u8]) -> Cow<'_, str> {
     match std::str::from_utf8(bytes) {
-        Ok(text) => text.to_owned(),
-        Err(_) => WINDOWS_1252.decode_without_bom_handling(bytes).0.into_owned(),
+        Ok(text) => Cow::Borrowed(text),
+        Err(_) => WINDOWS_1252.decode_without_bom_handling(bytes).0,
     }
 }
 
@@ -181,7 +186,7 @@ pub fn printable(text: &str) -> String {
             || matches!(c, '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}')
             || matches!(c, '\u{2060}'..='\u{2069}' | '\u{feff}')
     };
-    text.replace(unfit, " ")
+    if text.contains(unfit) { text.replace(unfit, " ") } else { text.to_owned() }
 }
 
 /// The first `longest` characters of `text`, with `…` where some are cut off.

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use super::input::Input;
 use super::render::RenderJob;
 use super::{JobError, MAX_FRAMES, Progress, say_missing, say_problems, say_variations};
-use crate::game::{Absent, Game, Games, Problem, Variation, printable};
+use crate::game::{Absent, Game, Problem, Variation, WantedGames, printable};
 use crate::notation::Color;
 use crate::output::slug;
 use crate::timeline::{Script, Timeline};
@@ -159,6 +159,7 @@ impl Batch {
             frames += entry.frames();
         }
         let seen = entries.games.seen();
+        drop(entries);
         // A single file without any is an error of its own; and one that was not read to its end misses nothing.
         if games < room && (games > 0 || job.inputs.len() > 1) {
             say_missing(&file, job.wanted.numbers.as_ref(), seen, progress);
@@ -175,7 +176,7 @@ impl Batch {
         job: &'a RenderJob,
         script: &'a Script,
     ) -> Result<Entries<'a>, JobError> {
-        let games = self.input.open()?.games();
+        let games = self.input.open()?.with_letters(job.letters).wanted(&job.wanted);
         Ok(Entries { job, script, file: &self.input.name, games, left: self.games })
     }
 }
@@ -185,7 +186,7 @@ pub struct Entries<'a> {
     job: &'a RenderJob,
     script: &'a Script,
     file: &'a str,
-    games: Games,
+    games: WantedGames<'a>,
     /// How many more there may be.
     left: usize,
 }
@@ -195,13 +196,10 @@ impl Iterator for Entries<'_> {
 
     fn next(&mut self) -> Option<Result<Entry, JobError>> {
         self.left = self.left.checked_sub(1)?;
-        let game = match self.games.next_wanted(&self.job.wanted)? {
+        let game = match self.games.next()? {
             Ok(game) => game,
             Err(error) => return Some(Err(error.into())),
         };
-        if self.job.wanted.highest_number().is_some_and(|last| game.number >= last) {
-            self.left = 0;
-        }
         Some(self.entry(game))
     }
 }

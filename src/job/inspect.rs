@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use super::{
     JobError, Progress, nothing_selected, say_missing, say_problems, say_variations, shown,
 };
-use crate::game::{Eval, Game, Notes, Ply, Source, Wanted, shortened};
+use crate::game::{Eval, Game, Letters, Notes, Ply, Source, Wanted, shortened};
 use crate::notation::Color;
 
 /// Which games to tell of, and how.
@@ -16,6 +16,7 @@ pub struct InspectJob {
     /// Files of games; `-` is the standard input.
     pub inputs: Vec<PathBuf>,
     pub wanted: Wanted,
+    pub letters: Letters,
     pub listing: Listing,
 }
 
@@ -59,9 +60,9 @@ pub fn inspect(
             break;
         }
         let file = shown(input);
-        let mut games = Source::open(input)?.games();
+        let mut games = Source::open(input)?.with_letters(job.letters).wanted(&job.wanted);
         let before = taken;
-        while let Some(game) = games.next_wanted(&job.wanted) {
+        for game in &mut games {
             let game = game?;
             if taken == before {
                 begin(job, &file, out).map_err(JobError::Write)?;
@@ -80,8 +81,7 @@ pub fn inspect(
                 }
             };
             written.map_err(JobError::Write)?;
-            let is_last = job.wanted.highest_number().is_some_and(|last| game.number >= last);
-            if is_last || is_full(taken) {
+            if is_full(taken) {
                 break;
             }
         }
@@ -132,7 +132,7 @@ fn positions(game: &Game, out: &mut dyn Write) -> std::io::Result<()> {
     for ply in 0..=game.plies.len() {
         let placement = game.placement(ply);
         let [white, black] = [Color::White, Color::Black].map(|color| placement.notation(color));
-        let san = game.san(ply).unwrap_or("-");
+        let san = game.san(ply).unwrap_or_else(|| "-".to_owned());
         let fen = game.fen(ply);
         writeln!(out, "{}\t{ply}\t{san}\t{fen}\t{white}\t{black}", game.number)?;
     }
@@ -144,7 +144,7 @@ fn notes(game: &Game, out: &mut dyn Write) -> std::io::Result<()> {
         return Ok(());
     }
     let number = game.number;
-    let mut row = |line: &str, ply: usize, san: &str, notes: &Notes| {
+    let mut row = |line: &str, ply: usize, san: &dyn Display, notes: &Notes| {
         write!(out, "{number}\t{line}\t{ply}\t{san}")?;
         let eval = notes.eval.map(|eval| match eval {
             Eval::Pawns(pawns) => pawns.to_string(),
@@ -158,7 +158,7 @@ fn notes(game: &Game, out: &mut dyn Write) -> std::io::Result<()> {
         }
         writeln!(out)
     };
-    row("-", 0, "-", &game.start_notes)?;
+    row("-", 0, &"-", &game.start_notes)?;
     for (ply, Ply { san, notes, .. }) in (1..).zip(&game.plies) {
         row("-", ply, san, notes)?;
     }

@@ -22,7 +22,7 @@ use super::shared::Shared;
 use super::studio::{PictureSettings, Studio};
 use super::{JobError, Progress, Showing, nothing_selected};
 use crate::config::Config;
-use crate::game::{Moment, Wanted};
+use crate::game::{Letters, Moment, Wanted};
 use crate::output::{
     FilmFormat, FolderLock, FrameNames, film_name, prepare_inside, remove_temporaries,
 };
@@ -37,6 +37,7 @@ pub struct RenderJob {
     /// The folder that gets one folder a file, each with one folder a game.
     pub out: PathBuf,
     pub wanted: Wanted,
+    pub letters: Letters,
     /// The first position and the last one.
     pub from: Moment,
     pub to: Moment,

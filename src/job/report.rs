@@ -195,8 +195,8 @@ impl FrameRow {
             // To the microsecond: sums of decimal fractions leave crumbs behind.
             time: (frame.time * 1e6).round() / 1e6,
             ply: frame.ply,
-            san: game.san(frame.ply).map(str::to_owned),
-            moving: moving(game, frame).map(str::to_owned),
+            san: game.san(frame.ply),
+            moving: moving(game, frame),
             fen: game.fen(frame.ply),
             white: placement.notation(Color::White),
             black: placement.notation(Color::Black),
@@ -221,7 +221,7 @@ impl FrameRow {
     }
 }
 
-fn moving<'a>(game: &'a Game, frame: &Frame) -> Option<&'a str> {
+fn moving(game: &Game, frame: &Frame) -> Option<String> {
     game.san(frame.ply + 1).filter(|_| !frame.movers.is_empty())
 }
 
@@ -233,10 +233,10 @@ pub fn texts(game: &Game, frame: &Frame) -> Vec<(&'static str, String)> {
         ("Software", concat!("lightsquare ", env!("CARGO_PKG_VERSION")).to_owned()),
         ("Game", game.number.to_string()),
         ("Ply", frame.ply.to_string()),
-        ("SAN", game.san(frame.ply).unwrap_or("-").to_owned()),
+        ("SAN", game.san(frame.ply).unwrap_or_else(|| "-".to_owned())),
         ("FEN", game.fen(frame.ply)),
     ];
-    texts.extend(moving(game, frame).map(|san| ("Moving", san.to_owned())));
+    texts.extend(moving(game, frame).map(|san| ("Moving", san)));
     texts
 }
 

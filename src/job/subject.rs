@@ -8,7 +8,7 @@ use super::report::texts;
 use super::studio::{PictureSettings, bodies};
 use super::{JobError, Progress, Showing, say_problems, shown};
 use crate::caption::Content;
-use crate::game::{Game, Moment, Source};
+use crate::game::{Game, Letters, Moment, Source};
 use crate::notation::Placement;
 use crate::timeline::{Frame, Timeline};
 
@@ -18,7 +18,7 @@ pub enum Subject {
     /// Pieces on squares, and their FEN for the picture's own text.
     Placement { placement: Placement, fen: String },
     /// A position of a game.
-    Game { file: PathBuf, number: usize, at: Moment },
+    Game { file: PathBuf, letters: Letters, number: usize, at: Moment },
 }
 
 /// What to show, and what the picture says of itself.
@@ -38,7 +38,7 @@ impl Subject {
         settings: &PictureSettings,
         progress: &dyn Progress,
     ) -> Result<Shot, JobError> {
-        let (file, number, at) = match self {
+        let (file, letters, number, at) = match self {
             Subject::Placement { placement, fen } => {
                 return Ok(Shot {
                     frame: Frame::of_fen(*placement, fen, &bodies(settings)?),
@@ -47,19 +47,19 @@ impl Subject {
                     is_whole: true,
                 });
             }
-            Subject::Game { file, number, at } => (file, *number, *at),
+            Subject::Game { file, letters, number, at } => (file, *letters, *number, *at),
         };
         let name = shown(file);
-        let mut games = 0;
-        for game in Source::open(file)?.games() {
-            let game = game?;
-            games = game.number;
-            if game.number == number {
-                say_problems(&name, &game, progress);
-                return shot(name, &game, at, settings);
-            }
+        let source = Source::open(file)?.with_letters(letters);
+        let mut games = source.games_where(|head| head.number == number);
+        let found = games.next().transpose()?;
+        if let Some(game) = &found {
+            say_problems(&name, game, progress);
         }
-        Err(JobError::NothingSelected { file: name, games })
+        match found.filter(|game| game.number == number) {
+            Some(game) => shot(name, &game, at, settings),
+            None => Err(JobError::NothingSelected { file: name, games: games.seen() }),
+        }
     }
 }
 
