@@ -7,7 +7,7 @@ use std::path::Path;
 use assert_cmd::Command;
 use bzip2::write::BzEncoder;
 use flate2::write::GzEncoder;
-use lightsquare::game::{Game, Source, SourceError};
+use lightsquare::game::{Game, Source, SourceError, Wanted};
 use ruzstd::encoding::{CompressionLevel, compress_to_vec};
 
 /// Enough games that each way to pack them has more than one block.
@@ -109,6 +109,24 @@ fn a_stream_that_ends_early_is_told_behind_the_games_before() {
             assert!(!last.is_whole() && last.plies.len() <= 4);
             assert!(problem.line >= last.line);
         }
+    }
+}
+
+/// What is lost may have been wanted, so it is told even where no game that is there is.
+#[test]
+fn a_stream_that_ends_early_is_told_whatever_is_wanted() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("games.pgn.gz");
+    let whole = gzip(games().as_bytes());
+    fs::write(&path, &whole[..whole.len() / 2]).unwrap();
+    let by_moves = Wanted { checkmate: true, ..Wanted::default() };
+    let by_tags = Wanted { tags: vec!["White=nobody".parse().unwrap()], ..Wanted::default() };
+    for wanted in [by_moves, by_tags] {
+        let given: Vec<Game> =
+            Source::open(&path).unwrap().wanted(&wanted).collect::<Result<_, _>>().unwrap();
+        assert_eq!(given.len(), 1);
+        assert!(given[0].plies.is_empty() && !given[0].is_whole());
+        assert!(given[0].problems.last().unwrap().what.contains("ends early"));
     }
 }
 

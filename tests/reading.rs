@@ -278,7 +278,7 @@ fn no_position_is_shown_where_the_start_is_not_known() {
         "[FEN \"4k3/8/8/8/8/8/4P3/4K3 w - - 0 1\"]\n[FEN \"4k3/8/8/8/8/8/3P4/4K3 w - - 0 1\"]\n\n1. e4 *",
         "[FEN=\"4k3/8/8/8/8/8/4P3/4K3 w - - 0 1\"]\n\n1. e4 *",
         "[Variant \"Chess960\"]\n\n1. e4 *",
-        "[Variant \"Horde\"]\n\n1. e4 *",
+        "[Variant \"Suicide\"]\n\n1. e4 *",
     ];
     for text in cases {
         let game = &read(text)[0];

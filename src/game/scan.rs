@@ -24,6 +24,8 @@ pub struct ScannedGame {
     pub number: usize,
     /// Whether it was not picked, and nothing more is known of it.
     pub is_skipped: bool,
+    /// Whether a packed stream has ended within it, which it then tells.
+    pub is_cut_off: bool,
     /// The line where the game begins, from 1.
     pub line: usize,
     /// Name and value of the tags that could be read, in order.
@@ -155,6 +157,7 @@ impl<R: Read, P: FnMut(&Head) -> bool> Scanner<R, P> {
                 Some(error) if !game.has_ended() && !game.is_skipped => {
                     let problem = self.problem(error);
                     game.main.problem(problem);
+                    game.is_cut_off = true;
                 }
                 _ => self.error = Some(error),
             }

@@ -118,7 +118,7 @@ impl Source {
             letters: self.letters,
             strays: Vec::new(),
             has_ended: false,
-            is_cut_behind: false,
+            is_cut: false,
         }
     }
 }
@@ -139,8 +139,8 @@ pub struct Games<P = All> {
     letters: Letters,
     strays: Vec<Problem>,
     has_ended: bool,
-    /// Whether the stream ended early, behind the last game.
-    is_cut_behind: bool,
+    /// Whether the stream ended early, in the game that was given last or behind it.
+    is_cut: bool,
 }
 
 impl<P: FnMut(&Head) -> bool> Games<P> {
@@ -149,9 +149,9 @@ impl<P: FnMut(&Head) -> bool> Games<P> {
         self.scanner.games()
     }
 
-    /// Whether the last game that was given is none, but tells that the stream ended early there.
-    pub fn is_cut_behind(&self) -> bool {
-        self.is_cut_behind
+    /// Whether the last game that was given tells that the stream ended early there.
+    pub fn is_cut(&self) -> bool {
+        self.is_cut
     }
 }
 
@@ -167,7 +167,7 @@ impl<P: FnMut(&Head) -> bool> Iterator for Games<P> {
                     match StreamError::of(&error) {
                         Some(error) if self.seen() > 0 => {
                             self.strays.push(self.scanner.problem(error));
-                            self.is_cut_behind = true;
+                            self.is_cut = true;
                             break;
                         }
                         _ => return Some(Err(SourceError::of(self.name.clone(), error))),
@@ -196,6 +196,7 @@ impl<P: FnMut(&Head) -> bool> Iterator for Games<P> {
                 self.strays.extend(scanned.main.problems);
                 continue;
             }
+            self.is_cut = scanned.is_cut_off;
             let number = scanned.number;
             let mut game = Game::read_in(scanned, number, self.letters);
             game.problems.splice(0..0, self.strays.drain(..));

@@ -105,9 +105,12 @@ impl Iterator for WantedGames<'_> {
             let takes = |wanted: &Wanted| {
                 wanted.takes_head(game.number, &game.tags) && wanted.takes_game(&game)
             };
-            // That a file is cut off is told whatever is wanted of it.
-            if takes(self.wanted) || self.games.is_cut_behind() {
+            if takes(self.wanted) {
                 return Some(Ok(game));
+            }
+            // That a file is cut off is told whatever is wanted of it.
+            if self.games.is_cut() {
+                return Some(Ok(Game::nothing(game.number, game.line, game.problems)));
             }
         }
         None

@@ -7,8 +7,7 @@
 PROGRAM is lightsquare; each .pgn file in and below FOLDER is read by
 `PROGRAM inspect --quiet --positions`. What differs must stand in
 differences.tsv beside this file, with the reason: one row for each game, with
-plies by both (`-` for a game that one of them does not see), or one with game
-`*` and 0 plies for a file of which lightsquare plays nothing. Prints what is
+plies by both (`-` for a game that one of them does not see). Prints what is
 not explained, what is explained and does not differ, and a summary; exits with
 1 if there is any of these. With --table, prints the table of
 docs/reading-pgn.md.
@@ -65,15 +64,11 @@ def main(program, folder, prints_table):
             continue
         for number in sorted(our.keys() | their.keys()):
             pair = [str(side.get(number, "-")) for side in (our, their)]
-            if pair[0] == pair[1] and (name, str(number)) not in explained:
-                continue
-            place = next((p for p in [(name, str(number)), (name, "*")] if p in explained), None)
+            place = (name, str(number))
             unused.discard(place)
             known = explained.get(place)
-            expected = known and [known["plies_ours"], known["plies_python_chess"]]
-            if expected and place[1] == "*":
-                expected[1] = pair[1]
-            if expected != pair or pair[0] == pair[1]:
+            expected = [known["plies_ours"], known["plies_python_chess"]] if known else None
+            if expected != (pair if pair[0] != pair[1] else None):
                 found += 1
                 print(f"{name}\t{number}\t{pair[0]}\t{pair[1]}\t(explained: {expected})")
     if prints_table:
