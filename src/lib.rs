@@ -26,7 +26,7 @@
 //! | [`export`] | a scene as another renderer's text | geometry, scene, assets, config |
 //! | [`caption`] | the strip of words on a picture, and the cards before and behind a game | assets, config, notation |
 //! | [`output`] | pictures, films, manifests, reports; whole files only | – |
-//! | [`job`] | what to render: game → timeline → scene → tracer → output; inspect; diagram; export; bench | all of the above |
+//! | [`job`] | what to render: game → timeline → scene → tracer → output; what is done already; inspect; diagram; export; estimate; bench | all of the above |
 //!
 //! The binary (`main`, `cli`, `progress`, `signals`) turns arguments into a typed job, shows how far it is,
 //! and sets the exit code; it alone prints. A test holds the imports against this table; what modules' own
@@ -38,7 +38,11 @@
 //! measured by the scene on its solids and told to the timeline ([`timeline::Bodies`]). `export` reads what
 //! scenes are made of, and so uses `assets` (bitmaps) and `config` (kinds of mapping and filter) too. What can stay
 //! of a picture is known by bodies, not by squares: the tracer is told which pictures are to come, and each pixel
-//! knows which of the bodies that come and go in them its rays meet, or would meet. Where the program differs
+//! knows which of the bodies that come and go in them its rays meet, or would meet. A piece that was captured in
+//! crazyhouse keeps its identity in hand and where it is dropped: a new one would change its grain in mid-air. Files of
+//! games are read twice, to see what there is and to render it game by game, so that they may be of any length. A game's
+//! manifest is written before its pictures, and says of each what it shows (a fingerprint), so that whatever ends a run,
+//! the next one knows what can stay. Where the program differs
 //! from the thesis: light loses a share at each surface of glass, where the thesis has full shadows;
 //! total internal reflection throws all back, whatever the material's shares; colours are cut to what
 //! can be shown when they are stored, not at each surface.
