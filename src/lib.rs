@@ -13,8 +13,9 @@
 //!
 //! | module | holds | may use |
 //! | --- | --- | --- |
+//! | [`text`] | text from outside, fit to be shown | – |
 //! | [`notation`] | [`notation::Placement`]: pieces and squares of both players, in the thesis's letters | – |
-//! | [`game`] | reading PGN into games, with variations and what comments say; selection | notation, config |
+//! | [`game`] | reading PGN into games, with variations and what comments say; selection | notation, config, text |
 //! | [`timeline`] | frames: at time *t* a placement, the movers between squares and beside the board, each piece's identity, marks, clock, the camera's turn | game, notation, config |
 //! | [`config`] | `config.ini`, typed and range-checked | – |
 //! | [`assets`] | piece sets from TOML (`docs/piece-sets.md`), bitmaps, a font | config, geometry |
@@ -25,7 +26,7 @@
 //! | [`tracer`] | rays through a whole scene, shading, antialiasing; a picture in memory, and what can stay of it for the next | geometry, scene, lanes, packet |
 //! | [`export`] | a scene as another renderer's text | geometry, scene, assets, config |
 //! | [`caption`] | the strip of words on a picture, and the cards before and behind a game | assets, config, notation |
-//! | [`output`] | pictures, films, manifests, reports; whole files only | – |
+//! | [`output`] | pictures, films, manifests, reports; whole files only | text |
 //! | [`job`] | what to render: game → timeline → scene → tracer → output; what is done already; inspect; diagram; export; estimate; bench | all of the above |
 //!
 //! The binary (`main`, `cli`, `progress`, `signals`) turns arguments into a typed job, shows how far it is,
@@ -65,5 +66,6 @@ pub mod notation;
 pub mod output;
 mod packet;
 pub mod scene;
+pub mod text;
 pub mod timeline;
 pub mod tracer;

@@ -146,7 +146,7 @@ fn around_all(
     before.as_bytes().chain(around(opens, text, times, after))
 }
 
-/// A million different tags: so many are read, the rest is told.
+/// Thousands of different tags: so many are read, the rest is told.
 #[test]
 fn tags_of_a_game_are_bounded() {
     let text: String = (0..5000).map(|n| format!("[T{n} \"{n}\"]\n")).collect();

@@ -76,8 +76,8 @@ fn spoilt_games_are_read_up_to_what_is_spoilt() {
             let spoilt = spoilt(&text, &mut random);
             for (number, scanned) in (1..).zip(Scanner::new(&spoilt[..])) {
                 let game = Game::read(scanned.unwrap(), number);
-                for problem in &game.problems {
-                    let said = problem.to_string();
+                let problems = game.problems.iter().map(ToString::to_string);
+                for said in problems.chain(game.unread_tags.iter().cloned()) {
                     assert!(
                         !said.contains(char::is_control),
                         "{}, {mutant}: {said}",

@@ -113,6 +113,40 @@ fn a_stream_that_ends_early_is_told_behind_the_games_before() {
 }
 
 /// What is lost may have been wanted, so it is told even where no game that is there is.
+/// A frame of zstd as large as its window, of which nothing may be given away before its end; in plain blocks.
+fn in_one_window(text: &[u8]) -> Vec<u8> {
+    let length = u32::try_from(text.len()).unwrap();
+    let mut frame = [&[0x28, 0xB5, 0x2F, 0xFD, 0xA0][..], &length.to_le_bytes()].concat();
+    let blocks: Vec<&[u8]> = text.chunks(100_000).collect();
+    for (index, block) in blocks.iter().enumerate() {
+        let is_last = u32::from(index + 1 == blocks.len());
+        let head = is_last | (block.len() as u32) << 3;
+        frame.extend(&head.to_le_bytes()[..3]);
+        frame.extend(*block);
+    }
+    frame
+}
+
+#[test]
+fn what_a_cut_stream_has_given_is_read_however_large_its_window() {
+    let text = games();
+    let frame = in_one_window(text.as_bytes());
+    assert_eq!(read_bytes(&frame).unwrap().len(), 9000);
+    for share in [10, 5, 2] {
+        // A whole block more or less.
+        let kept = frame.len() - frame.len() / share;
+        let games = read_bytes(&frame[..kept]).unwrap();
+        let least = (kept - 100_000) * 9000 / frame.len() - 9;
+        assert!(games.len() >= least, "{share}: {} of at least {least}", games.len());
+        assert!(games.last().is_some_and(|game| !game.is_whole()));
+        assert!(games[..games.len() - 1].iter().all(Game::is_whole));
+    }
+    // Of a frame whose checksum is cut off all is read.
+    let mut checked = zstd(text.as_bytes());
+    checked.truncate(checked.len() - 2);
+    assert!(read_bytes(&checked).unwrap().len() >= 9000);
+}
+
 #[test]
 fn a_stream_that_ends_early_is_told_whatever_is_wanted() {
     let folder = tempfile::tempdir().unwrap();

@@ -156,6 +156,39 @@ fn a_part_of_other_settings_is_not_taken_for_the_whole() {
     assert!(out(folder.path()) == fresh(&[]));
 }
 
+/// Pictures of other settings whose manifest is about to be written over go with it.
+#[test]
+fn pictures_of_a_part_do_not_outlive_what_is_said_of_them() {
+    for (mine, other, last) in [
+        (&[][..], &[][..], &["--film", "gif", "--no-frames"][..]),
+        (&["--names", "x#.png"], &["--names", "x#.png"], &["--names", "y#.png"]),
+    ] {
+        let part = ["--frames", "1-2", "--select", "1"];
+        let folder = TempDir::new().unwrap();
+        done(folder.path(), &[mine]);
+        run(folder.path(), &[&part, &["--flip"], other]);
+        run(folder.path(), &[&part, last]);
+        done(folder.path(), &[mine]);
+        assert!(out(folder.path()) == fresh(&[mine]), "{last:?}");
+    }
+}
+
+/// Of a variation too that is not wanted any more.
+#[test]
+fn what_dead_runs_left_is_removed() {
+    let folder = TempDir::new().unwrap();
+    done(folder.path(), &[&["--variations"]]);
+    let first = folder.path().join(FIRST);
+    let variation = first.join("2w-bc4");
+    assert!(variation.is_dir());
+    for place in [&folder.path().join("out/games"), &first, &variation] {
+        fs::write(place.join(".lightsquare-Xy12"), "half a picture").unwrap();
+    }
+    done(folder.path(), &[]);
+    assert!(out(folder.path()) == fresh(&[]));
+    assert!(!variation.exists());
+}
+
 #[test]
 fn what_is_of_other_settings_can_be_left_alone() {
     let folder = TempDir::new().unwrap();
@@ -165,7 +198,9 @@ fn what_is_of_other_settings_can_be_left_alone() {
     assert_eq!(code, 1, "{said}");
     assert!(said.contains("frame_00000.png: is of another run"), "{said}");
     assert!(tree(&folder.path().join(FIRST)) == before);
+    // What is broken is of no other run.
     fs::remove_file(folder.path().join(FIRST).join("frame_00003.png")).unwrap();
+    fs::write(folder.path().join(FIRST).join("frame_00002.png"), "").unwrap();
     done(folder.path(), &[&["--no-replace"]]);
     assert!(tree(&folder.path().join(FIRST)) == before);
 }

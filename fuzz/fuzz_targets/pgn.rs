@@ -8,8 +8,9 @@ fuzz_target!(|bytes: &[u8]| {
     for (number, scanned) in (1..).zip(Scanner::new(bytes)) {
         let Ok(scanned) = scanned else { continue };
         let game = Game::read(scanned, number);
-        for problem in &game.problems {
-            assert!(!problem.to_string().contains(char::is_control), "{problem}");
+        let problems = game.problems.iter().map(ToString::to_string);
+        for said in problems.chain(game.unread_tags.iter().cloned()) {
+            assert!(!said.contains(char::is_control), "{said}");
         }
         if game.start_is_known {
             for ply in 0..=game.plies.len() {

@@ -275,7 +275,7 @@ pub struct InspectArgs {
     /// Letters of the pieces: english, german, french, czech, …; auto finds those of a whole game
     #[arg(long, value_name = "LANGUAGE", default_value = "auto")]
     letters: Letters,
-    /// A tab-separated row for every position: game, ply, san, white, black
+    /// A tab-separated row for every position: game, ply, san, fen, white, black
     #[arg(long, conflicts_with = "notes")]
     positions: bool,
     /// A tab-separated row for the start and every move, those of variations too, with what

@@ -203,7 +203,7 @@ impl<R: Read> Bytes<R> {
         Ok(kept)
     }
 
-    /// The bytes before the first of `ends` or the end of the line; `longest` of them are kept.
+    /// The bytes before the first `end` or the end of the line; `longest` of them are kept.
     pub fn until(&mut self, end: u8, longest: usize) -> io::Result<Kept<Vec<u8>>> {
         let mut kept = Kept::default();
         loop {

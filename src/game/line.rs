@@ -10,8 +10,9 @@ use super::letters::Language;
 use super::movetext::Written;
 use super::notes::Notes;
 use super::plain::{self, Plain};
-use super::word::{Word, shortened};
+use super::word::Word;
 use super::{LONGEST_TOKEN, Problem, command, movetext};
+use crate::text::shortened;
 
 /// The moves of a line and what is written between them.
 #[derive(Debug, Default)]

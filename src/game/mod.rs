@@ -1,10 +1,10 @@
 //! Reading games: from PGN text to tags, a start position and legal moves.
 //!
-//! Four steps: `input` unpacks a stream; `scan` cuts it into games, each a main `line` of tokens with
-//! variations; tokens become moves as written, which nearly all are `plain`, and the rest is read by
-//! `movetext` (with pgn-reader, and a tolerant reading of what it drops); `replay` plays them. What comments and glyphs say becomes `notes`, on the way. What cannot
-//! be read becomes a [`Problem`] with its line and token; a game is shown up to its last good move, and
-//! the next game is read.
+//! Four steps: `stream` unpacks what is packed; `scan` cuts it into games, each a main `line` of tokens with
+//! variations; tokens become moves as written, which nearly all are `plain`, and the rest is read by `movetext` (with
+//! pgn-reader, and a tolerant reading of what it drops); `replay` plays them. What comments and glyphs say becomes `notes`,
+//! on the way. What cannot be read becomes a [`Problem`] with its line and token; a game is shown up to its last good move,
+//! and the next game is read.
 
 mod bytes;
 mod clock;
@@ -12,7 +12,6 @@ mod command;
 mod comment;
 mod date;
 mod glyph;
-mod input;
 mod letters;
 mod line;
 mod movetext;
@@ -23,9 +22,11 @@ mod plain;
 mod player;
 mod replay;
 mod scan;
+mod scanned;
 mod select;
 mod source;
 mod start;
+mod stream;
 mod tag_test;
 mod variant;
 mod variation;
@@ -34,20 +35,20 @@ mod wildcard;
 mod word;
 
 pub use clock::Clocks;
-pub use input::{Format, StreamError};
 pub use letters::{Language, Letters, ParseLettersError};
 pub use notes::{Eval, Notes};
 pub use outcome::Ending;
 pub use pattern::{ParsePatternError, PositionPattern};
 pub use player::{Players, PlayersError};
-pub use scan::{Head, ScannedGame, Scanner};
+pub use scan::{Head, Scanner};
+pub use scanned::ScannedGame;
 pub use select::{Absent, Moment, ParseMomentError, ParseSelectionError, Selection};
 pub use source::{Games, Source, SourceError};
 pub use start::{fen_in_hand, fen_position};
+pub use stream::{Format, StreamError};
 pub use tag_test::{ParseTagTestError, TagTest};
 pub use variation::Branch;
 pub use wanted::{ParsePlyRangeError, PlyRange, Wanted, WantedGames};
-pub use word::{printable, shortened};
 
 use shakmaty::fen::Fen;
 use shakmaty::san::SanPlus;
@@ -55,6 +56,7 @@ use shakmaty::variant::{Variant, VariantPosition};
 use shakmaty::{Bitboard, ByColor, ByRole, Color, EnPassantMode, Move, Position, Setup};
 
 use crate::notation::Placement;
+use crate::text;
 
 /// One game of a file.
 #[derive(Clone, Debug)]
@@ -127,7 +129,7 @@ const LONGEST_TOKEN: usize = 80;
 impl Problem {
     /// A problem with a token that is made fit for print: no control characters, not too long.
     fn new(line: usize, token: &str, what: &str, loses_moves: bool) -> Problem {
-        let token = word::shortened(&word::printable(token), LONGEST_TOKEN);
+        let token = text::shortened(&text::printable(token), LONGEST_TOKEN);
         Problem { line, token, what: what.to_owned(), loses_moves }
     }
 }

@@ -4,9 +4,10 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
-use super::input::{Format, Input, StreamError};
 use super::scan::{All, Head};
-use super::{Game, Letters, Problem, Scanner, printable};
+use super::stream::{Format, Stream, StreamError};
+use super::{Game, Letters, Problem, Scanner};
+use crate::text::printable;
 
 /// A file of games that is open, or the standard input.
 pub struct Source {
@@ -77,7 +78,7 @@ impl Source {
             }
             Box::new(File::open(path).map_err(&failed)?)
         };
-        let Input { reader, beginning, format } = Input::new(reader).map_err(&failed)?;
+        let Stream { reader, beginning, format } = Stream::new(reader).map_err(&failed)?;
         let is_unpacked = matches!(format, Some(Format::Zstd | Format::Gzip | Format::Bzip2));
         match (format, Format::of(&beginning)) {
             (Some(outer), Some(inner)) if is_unpacked => {

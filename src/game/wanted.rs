@@ -49,11 +49,6 @@ impl Wanted {
             && self.position.as_ref().is_none_or(|pattern| reaches(game, pattern))
     }
 
-    /// How many games are taken in all.
-    pub fn limit(&self) -> Option<usize> {
-        self.limit
-    }
-
     /// The highest number that is asked for; where games are asked for by number, none follows it.
     pub fn highest_number(&self) -> Option<usize> {
         self.numbers.as_ref().map(Selection::highest)
@@ -100,12 +95,12 @@ impl Iterator for WantedGames<'_> {
                 Ok(game) => game,
                 Err(error) => return Some(Err(error)),
             };
-            let last = self.wanted.highest_number();
-            self.is_over = last.is_some_and(|last| game.number >= last);
             let takes = |wanted: &Wanted| {
                 wanted.takes_head(game.number, &game.tags) && wanted.takes_game(&game)
             };
             if takes(self.wanted) {
+                let last = self.wanted.highest_number();
+                self.is_over = last.is_some_and(|last| game.number >= last);
                 return Some(Ok(game));
             }
             // That a file is cut off is told whatever is wanted of it.

@@ -8,6 +8,7 @@ use std::borrow::Cow;
 use encoding_rs::WINDOWS_1252;
 
 use super::glyph;
+use crate::text::printable;
 
 /// What a word of the main line is.
 #[derive(Debug, PartialEq, Eq)]
@@ -175,25 +176,6 @@ pub fn decoded(bytes: &[u8]) -> Cow<'_, str> {
     match std::str::from_utf8(bytes) {
         Ok(text) => Cow::Borrowed(text),
         Err(_) => WINDOWS_1252.decode_without_bom_handling(bytes).0,
-    }
-}
-
-/// `text` on one line, with nothing in it that moves a cursor, rings a bell, turns the direction
-/// of writing or cannot be seen.
-pub fn printable(text: &str) -> String {
-    let unfit = |c: char| {
-        c.is_control()
-            || matches!(c, '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}')
-            || matches!(c, '\u{2060}'..='\u{2069}' | '\u{feff}')
-    };
-    if text.contains(unfit) { text.replace(unfit, " ") } else { text.to_owned() }
-}
-
-/// The first `longest` characters of `text`, with `…` where some are cut off.
-pub fn shortened(text: &str, longest: usize) -> String {
-    match text.char_indices().nth(longest) {
-        Some((end, _)) => format!("{}…", &text[..end]),
-        None => text.to_owned(),
     }
 }
 

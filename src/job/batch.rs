@@ -7,9 +7,10 @@ use std::path::{Path, PathBuf};
 use super::input::Input;
 use super::render::RenderJob;
 use super::{JobError, MAX_FRAMES, Progress, say_missing, say_problems, say_variations};
-use crate::game::{Absent, Game, Problem, Variation, WantedGames, printable};
+use crate::game::{Absent, Game, Problem, Variation, WantedGames};
 use crate::notation::Color;
 use crate::output::slug;
+use crate::text::printable;
 use crate::timeline::{Script, Timeline};
 
 /// A file of games, and what of it is to be rendered. It is read twice: to see what there is, before the first picture, and

@@ -40,16 +40,20 @@ impl<'a> Desk<'a> {
         pool: &'a ThreadPool,
         format: PictureFormat,
     ) -> Desk<'a> {
-        let threads = pool.current_num_threads();
         Desk {
             progress,
             pool,
             format,
-            room: if threads > 1 { threads + SPARE } else { 0 },
+            room: Desk::room(pool.current_num_threads()),
             waiting: AtomicUsize::new(0),
             written: AtomicU64::new(0),
             failed: Mutex::default(),
         }
+    }
+
+    /// How many sheets may wait where so many threads write.
+    pub fn room(threads: usize) -> usize {
+        if threads > 1 { threads + SPARE } else { 0 }
     }
 
     /// Has a sheet written by the end of `scope`, which is one of the pool; at once if too many wait. Once one could not

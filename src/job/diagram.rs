@@ -5,9 +5,10 @@ use std::path::{Path, PathBuf};
 
 use super::studio::{PictureSettings, Studio};
 use super::subject::{Subject, keep_inputs};
-use super::{JobError, Progress, Showing, shown};
+use super::{JobError, Progress, Showing};
 use crate::notation::{Arrow, Circle, Square};
 use crate::output::{encode_png, prepare_file, write_picture};
+use crate::text::shown;
 use crate::timeline::Marks;
 use crate::tracer::RayCounts;
 

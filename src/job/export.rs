@@ -5,9 +5,10 @@ use std::path::{Path, PathBuf};
 
 use super::studio::{PictureSettings, stage};
 use super::subject::{Subject, keep_inputs};
-use super::{JobError, Progress, Showing, shown};
+use super::{JobError, Progress, Showing};
 use crate::export::pov;
 use crate::output::{Content, encode_png, prepare_file, write_together};
+use crate::text::shown;
 
 /// Which position to write down, and where to.
 #[derive(Clone, Debug)]

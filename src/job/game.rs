@@ -15,12 +15,13 @@ use super::render::Run;
 use super::report::{FrameRow, Manifest, tags, texts};
 use super::shots::Shots;
 use super::studio::Studio;
-use crate::game::{Game, shortened};
+use crate::game::Game;
 use crate::notation::Color;
 use crate::output::{
     Earlier, FilmFormat, FrameNames, PictureFormat, RepeatedPicture, film_name, is_whole,
     manifest_name, prepare_inside, remove_temporaries, write_json,
 };
+use crate::text::shortened;
 use crate::timeline::Timeline;
 
 /// What is rendered into one folder.
@@ -108,13 +109,21 @@ impl Line<'_> {
         let (kept_films, films): (Vec<_>, Vec<_>) =
             job.films.formats.iter().copied().partition(is_made);
 
+        // What is as it should be but for its bytes is not of another run.
+        let is_ours = |name: &str| {
+            let of_name = |planned: &&Planned| planned.row.file() == Some(name);
+            planned
+                .iter()
+                .find(of_name)
+                .is_some_and(|planned| earlier.has_frame(name, planned.row.fingerprint()))
+        };
         let mut kept = self.folders_within();
         kept.extend(kept_films.iter().map(|format| film(*format)));
         let kept_frames = planned.iter().filter(|planned| planned.is_kept);
         kept.extend(kept_frames.filter_map(|planned| planned.row.file()).map(str::to_owned));
         let keeps = |name: &str| kept.contains(name);
         if job.refuses_old
-            && let Some(name) = earlier.first_old(names, keeps)?
+            && let Some(name) = earlier.first_old(names, |name| keeps(name) || is_ours(name))?
         {
             return Err(JobError::WouldReplace { path: folder.join(name) });
         }
@@ -125,6 +134,7 @@ impl Line<'_> {
             write_json(&path, &self.manifest(run, &fingerprint, films, rows))
         };
         manifest(&job.films.formats, planned.iter().map(|planned| &planned.row).collect())?;
+        earlier.remove_manifests()?;
 
         let films = Films { formats: films, ffmpeg: job.films.ffmpeg.clone() };
         let shots = if films.formats.is_empty() {
@@ -246,5 +256,7 @@ impl Line<'_> {
 fn fingerprint(run: &Run, planned: &[Planned]) -> String {
     let frames: Vec<_> = planned.iter().map(|planned| planned.row.shows()).collect();
     let showing = &run.job.showing;
-    run.fingerprints.of(&(frames, showing.animate, showing.film))
+    let is_by_ffmpeg =
+        run.job.films.formats.contains(&FilmFormat::Mp4) && run.job.films.ffmpeg.is_some();
+    run.fingerprints.of(&(frames, showing.animate, showing.film, is_by_ffmpeg))
 }

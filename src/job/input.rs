@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 use tempfile::TempPath;
 
-use super::shown;
 use crate::game::{Source, SourceError};
+use crate::text::shown;
 
 /// A file of games, or what came from the standard input.
 pub struct Input {

@@ -4,11 +4,10 @@ use std::fmt::Display;
 use std::io::Write;
 use std::path::PathBuf;
 
-use super::{
-    JobError, Progress, nothing_selected, say_missing, say_problems, say_variations, shown,
-};
-use crate::game::{Eval, Game, Letters, Notes, Ply, Source, Wanted, shortened};
+use super::{JobError, Progress, nothing_selected, say_missing, say_problems, say_variations};
+use crate::game::{Eval, Game, Letters, Notes, Ply, Source, Wanted};
 use crate::notation::Color;
+use crate::text::{shortened, shown};
 
 /// Which games to tell of, and how.
 #[derive(Clone, Debug)]
@@ -53,7 +52,7 @@ pub fn inspect(
     progress: &dyn Progress,
     out: &mut dyn Write,
 ) -> Result<usize, JobError> {
-    let is_full = |taken| job.wanted.limit().is_some_and(|limit| taken >= limit);
+    let is_full = |taken| job.wanted.limit.is_some_and(|limit| taken >= limit);
     let (mut seen, mut taken, mut partial) = (0, 0, 0);
     for input in &job.inputs {
         if is_full(taken) {

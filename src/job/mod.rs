@@ -37,13 +37,14 @@ pub use studio::PictureSettings;
 pub use subject::Subject;
 
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use crate::assets::AssetError;
 use crate::caption::CaptionError;
-use crate::game::{Game, Moment, Selection, SourceError, Variation, printable};
+use crate::game::{Game, Moment, Selection, SourceError, Variation};
 use crate::output::{LockError, OutputError};
 use crate::scene::StageError;
+use crate::text::shown;
 use crate::timeline::PathError;
 
 /// Why a job could not be done.
@@ -61,11 +62,11 @@ pub enum JobError {
     NoSuchMoment { file: String, game: usize, moment: Moment, start: String, end: String },
     #[error("{file}: game {game} has no position that is certain")]
     NoPosition { file: String, game: usize },
-    #[error("{}: is the file that is read, expected another one to write", path.display())]
+    #[error("{}: is the file that is read, expected another one to write", shown(path))]
     OutputIsInput { path: PathBuf },
     #[error(
         "{}: is read, and lies in a folder that is written to, expected another --out",
-        path.display()
+        shown(path)
     )]
     InputInOutput { path: PathBuf },
     #[error("{file}: game {game} would take {frames} frames, expected at most {MAX_FRAMES}")]
@@ -80,12 +81,12 @@ pub enum JobError {
     Lock(#[from] LockError),
     #[error(
         "{}: is of another run, with other settings or another game, and nothing is to be replaced; expected another --out",
-        path.display()
+        shown(path)
     )]
     WouldReplace { path: PathBuf },
     #[error(
         "{}: {frames} frames of {width}x{height} take {} at least, and there is room for {}",
-        folder.display(), in_bytes(*needed as f64), in_bytes(*free as f64)
+        shown(folder), in_bytes(*needed as f64), in_bytes(*free as f64)
     )]
     NoRoom { folder: PathBuf, frames: u64, width: u32, height: u32, needed: u64, free: u64 },
     #[error(transparent)]
@@ -135,11 +136,6 @@ pub fn in_bytes(number: f64) -> String {
         Some((name, unit)) => format!("{:.1} {name}", number / unit),
         None => format!("{number} bytes"),
     }
-}
-
-/// A file's name as messages show it, `-` for the standard input.
-fn shown(path: &Path) -> String {
-    printable(&path.to_string_lossy())
 }
 
 /// Tells what could not be read of a game.

@@ -12,6 +12,7 @@ use std::thread;
 use rayon::ThreadPool;
 
 use super::batch::{Batch, Entries, Entry, VariationPart, folder_names, game_folder};
+use super::desk::Desk;
 use super::fingerprint::Fingerprints;
 use super::game::{Line, Rendered};
 use super::input::Input;
@@ -150,9 +151,12 @@ pub fn render(job: &RenderJob, progress: &dyn Progress) -> Result<Summary, JobEr
 pub fn survey(job: &RenderJob, progress: &dyn Progress) -> Result<Vec<Batch>, JobError> {
     // How many frames there are does not depend on the room that pieces take.
     let script = job.showing.script(&job.picture.config, Bodies::default());
-    let mut room = job.wanted.limit().unwrap_or(usize::MAX);
+    let mut room = job.wanted.limit.unwrap_or(usize::MAX);
     let (mut batches, mut seen) = (Vec::new(), 0);
     for (path, folder) in job.inputs.iter().zip(folder_names(&job.inputs)) {
+        if room == 0 {
+            break;
+        }
         let input = Input::new(path)?;
         let batch = Batch::survey(job, &script, input, folder.into(), room, progress)?;
         room -= batch.games;
@@ -167,8 +171,9 @@ pub fn survey(job: &RenderJob, progress: &dyn Progress) -> Result<Vec<Batch>, Jo
     Ok(batches)
 }
 
-/// How many bytes of memory a pixel takes while its game is rendered.
-const BYTES_A_PIXEL: usize = 300;
+/// How many bytes of memory a pixel takes while its game is traced, and in a picture that waits to be written.
+const TRACED: usize = 300;
+const PICTURE: usize = 3;
 
 /// Memory for games that are rendered side by side.
 const MEMORY: usize = 1 << 30;
@@ -176,8 +181,10 @@ const MEMORY: usize = 1 << 30;
 /// How many games are rendered at once: as many as there are threads, and as have room.
 fn side_by_side(job: &RenderJob, pool: &ThreadPool) -> usize {
     let Config { width, height, .. } = job.picture.config;
-    let room = MEMORY / (BYTES_A_PIXEL * (width as usize * height as usize).max(1));
-    pool.current_num_threads().min(room).max(1)
+    let threads = pool.current_num_threads();
+    let bytes_a_pixel = TRACED + Desk::room(threads) * PICTURE;
+    let room = MEMORY / (bytes_a_pixel * (width as usize * height as usize).max(1));
+    threads.min(room).max(1)
 }
 
 /// Tells of films that are smaller than their pictures, and who makes them.
@@ -224,6 +231,17 @@ pub struct Run<'a> {
     pub fingerprints: Fingerprints<'a>,
     /// Whether a game could not be rendered, so that others are not begun or gone on with.
     has_failed: AtomicBool,
+}
+
+/// Stops the others when who holds it breaks down.
+struct StopsOthers<'a>(&'a AtomicBool);
+
+impl Drop for StopsOthers<'_> {
+    fn drop(&mut self) {
+        if thread::panicking() {
+            self.0.store(true, Ordering::Relaxed);
+        }
+    }
 }
 
 /// What those who render the games of one file share.
@@ -276,6 +294,7 @@ impl Run<'_> {
     /// Renders game after game until there is none left.
     fn work(&self, shift: &Shift, studio: &mut Studio) -> (Summary, Result<(), JobError>) {
         let mut summary = Summary::default();
+        let _stops_others = StopsOthers(&self.has_failed);
         while !self.is_over() {
             let next = shift.queue.lock().unwrap_or_else(PoisonError::into_inner).next();
             let Some((place, entry)) = next else { break };

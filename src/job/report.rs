@@ -7,9 +7,10 @@ use serde::Serialize;
 use serde_json::{Map, Value};
 
 use super::studio::SettingsRecord;
-use crate::game::{Game, Problem, Variation, shortened};
+use crate::game::{Game, Problem, Variation};
 use crate::notation::Color;
 use crate::output::{JsonLines, OutputError};
+use crate::text::shortened;
 use crate::timeline::{Card, Film, Frame, Gaze};
 
 /// What became of a game.

@@ -28,7 +28,7 @@ impl Shots {
         let mut begins = Vec::new();
         // What the studio compares too, before it makes a picture anew.
         let mut last: Option<(Frame, Option<Content>)> = None;
-        for index in part.frames.clone() {
+        for (index, _) in part.frames() {
             let frame = timeline.frame(index);
             let (content, shown) = (captions.of(&frame), shown_of(settings, &frame));
             let is_same = last

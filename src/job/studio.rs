@@ -6,14 +6,14 @@ use std::sync::Arc;
 use image::DynamicImage;
 use serde::Serialize;
 
+use super::JobError;
 use super::shared::Shared;
-use super::{JobError, shown};
 use crate::assets::{Assets, SetName};
 use crate::caption::{Caption, Content};
 use crate::config::{Config, Render, Sampling, ShowClock};
-use crate::game::printable;
 use crate::output::RepeatedPicture;
 use crate::scene::{self, Reach, Stage};
+use crate::text::{printable, shown};
 use crate::timeline::{Bodies, Frame};
 use crate::tracer::{self, Antialiasing, RayCounts, Tracer};
 

@@ -6,10 +6,11 @@ use std::path::{Path, PathBuf};
 use super::captions::{self, GameCaptions};
 use super::report::texts;
 use super::studio::{PictureSettings, bodies};
-use super::{JobError, Progress, Showing, say_problems, shown};
+use super::{JobError, Progress, Showing, say_problems};
 use crate::caption::Content;
 use crate::game::{Game, Letters, Moment, Source};
 use crate::notation::Placement;
+use crate::text::shown;
 use crate::timeline::{Frame, Timeline};
 
 /// Where a position comes from.

@@ -13,7 +13,7 @@ use serde_json::Value;
 
 use super::film::FILM_FORMATS;
 use super::frames::frame_index;
-use super::{FrameNames, OutputError, PictureFormat, film_name, manifest_name};
+use super::{FrameNames, OutputError, PictureFormat, film_name, manifest_name, remove_temporaries};
 
 /// A game's folder, with what its manifests say.
 pub struct Earlier {
@@ -21,9 +21,10 @@ pub struct Earlier {
     part: Option<RangeInclusive<usize>>,
     /// The fingerprint of each file that they name; none where they do not tell, or one says this and another that.
     files: BTreeMap<String, Option<String>>,
-    /// What is said of the whole by the manifest of the same part.
+    /// What is said of the whole by the manifest of the same part, which is to be written again; and its pictures.
     fingerprint: Option<String>,
     films: BTreeSet<String>,
+    own: BTreeSet<String>,
 }
 
 impl Earlier {
@@ -50,12 +51,14 @@ impl Earlier {
         }
         let own = manifest(&folder.join(manifest_name(part)));
         let films = own["films"].as_array().into_iter().flatten().filter_map(Value::as_str);
+        let rows = own["frames"].as_array().into_iter().flatten();
         Earlier {
             folder: folder.to_owned(),
             part: part.cloned(),
             files,
             fingerprint: own["fingerprint"].as_str().map(str::to_owned),
             films: films.map(str::to_owned).collect(),
+            own: rows.filter_map(|row| row["file"].as_str()).map(str::to_owned).collect(),
         }
     }
 
@@ -73,9 +76,10 @@ impl Earlier {
         self.films.contains(file) && self.fingerprint.as_deref() == Some(fingerprint) && is_there()
     }
 
-    /// Removes numbered pictures by `names`, by their usual ones and by the manifest, films, other manifests, and all
-    /// variations, unless somebody `keeps` what has that name: they would stand among the new ones, and be of another
-    /// film. Where a part is rendered, only its film, and its pictures where there are to be others.
+    /// Removes numbered pictures by `names`, by their usual ones and by manifests, films, and all variations, unless
+    /// somebody `keeps` what has that name: they would stand among the new ones, and be of another film. Where a part is
+    /// rendered, only its film, its pictures where there are to be others, and those of its manifest: nobody would know
+    /// any more what they are.
     ///
     /// # Errors
     /// When the folder cannot be read, or a file cannot be removed.
@@ -95,6 +99,26 @@ impl Earlier {
         Ok(())
     }
 
+    /// Removes the manifests of parts, once that of the whole has been written: what is there has a name in that one, so that it
+    /// is always known what pictures are. That of a part leaves the others alone.
+    ///
+    /// # Errors
+    /// When the folder cannot be read, or a file cannot be removed.
+    pub fn remove_manifests(&self) -> Result<(), OutputError> {
+        let failed = |error| OutputError { path: self.folder.clone(), error };
+        if self.part.is_some() {
+            return Ok(());
+        }
+        for entry in fs::read_dir(&self.folder).map_err(failed)? {
+            let entry = entry.map_err(failed)?;
+            let is_file = !entry.file_type().map_err(failed)?.is_dir();
+            if is_file && is_part_manifest(&entry.file_name().to_string_lossy()) {
+                remove_if_there(&entry.path()).map_err(failed)?;
+            }
+        }
+        Ok(())
+    }
+
     /// The name of something that [`Earlier::remove`] would take away, if there is anything.
     ///
     /// # Errors
@@ -105,10 +129,10 @@ impl Earlier {
         keeps: impl Fn(&str) -> bool,
     ) -> Result<Option<String>, OutputError> {
         let old = self.old(names, keeps)?.into_iter().map(|(name, _)| name);
-        Ok(old.filter(|name| !is_manifest(name)).min())
+        Ok(old.min())
     }
 
-    /// What has to go, manifests last: as long as one is there, it says what pictures are.
+    /// What has to go, but for manifests.
     fn old(
         &self,
         names: Option<&FrameNames>,
@@ -116,7 +140,6 @@ impl Earlier {
     ) -> Result<Vec<(String, PathBuf)>, OutputError> {
         let failed = |error| OutputError { path: self.folder.clone(), error };
         let part = self.part.as_ref();
-        let own = manifest_name(part);
         let mut old = Vec::new();
         for entry in fs::read_dir(&self.folder).map_err(failed)? {
             let entry = entry.map_err(failed)?;
@@ -125,22 +148,20 @@ impl Earlier {
             let is_folder = entry.file_type().map_err(failed)?.is_dir();
             let is_old = match (frame_index(&name, names), part) {
                 _ if is_folder => part.is_none() && is_variation(&name),
+                (_, Some(_)) if self.own.contains(&name) && is_picture(&name) => true,
                 (Some(index), Some(part)) => names.is_some() && part.contains(&index),
                 (Some(_), None) => true,
                 (None, Some(part)) => {
                     FILM_FORMATS.iter().any(|(_, film)| name == film_name(*film, Some(part)))
                 }
                 (None, None) => {
-                    self.files.contains_key(&name) && is_picture(&name)
-                        || is_manifest(&name) && name != own
-                        || is_film(&name)
+                    self.files.contains_key(&name) && is_picture(&name) || is_film(&name)
                 }
             };
             if is_old && !keeps(&name) {
                 old.push((name, entry.path()));
             }
         }
-        old.sort_by_key(|(name, _)| is_manifest(name));
         Ok(old)
     }
 }
@@ -159,9 +180,12 @@ fn is_picture(name: &str) -> bool {
 /// Removes what a variation's folder holds of ours; without a manifest it is another's, unless it is empty.
 fn remove_variation(folder: &Path, names: Option<&FrameNames>) -> Result<(), OutputError> {
     let failed = |error| OutputError { path: folder.to_owned(), error };
+    remove_temporaries(folder)?;
     let manifest = folder.join(manifest_name(None));
     if manifest.is_file() {
-        Earlier::read(folder, None).remove(names, |_| false)?;
+        let earlier = Earlier::read(folder, None);
+        earlier.remove(names, |_| false)?;
+        earlier.remove_manifests()?;
         remove_if_there(&manifest).map_err(failed)?;
     } else {
         for entry in fs::read_dir(folder).map_err(failed)? {

@@ -5,6 +5,7 @@ use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
 use super::OutputError;
+use crate::text::shown;
 
 /// Holds a folder for this process, by its file `.lock`. The system lets go of it when the process ends, however that
 /// happens; so a file that a dead one has left does not block.
@@ -20,7 +21,7 @@ pub struct FolderLock {
 pub enum LockError {
     #[error(
         "{}: another lightsquare{} writes there, expected it to end first, or another --out",
-        folder.display(),
+        shown(folder),
         match process {
             Some(id) => format!(" (process {id})"),
             None => String::new(),
@@ -50,10 +51,8 @@ impl FolderLock {
                     let process = text.trim().parse().ok();
                     return Err(LockError::Held { folder: folder.to_owned(), process });
                 }
-                Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => {
-                    return Ok(FolderLock { path, file: None });
-                }
-                Err(TryLockError::Error(error)) => return Err(failed(error).into()),
+                // Some file systems of networks have no locks; pictures are written there all the same.
+                Err(TryLockError::Error(_)) => return Ok(FolderLock { path, file: None }),
             }
             // Between the two steps the one before may have taken its file away.
             if !is_at(&file, &path) {
@@ -68,7 +67,7 @@ impl FolderLock {
 
 impl Drop for FolderLock {
     fn drop(&mut self) {
-        if self.file.is_some() {
+        if self.file.as_ref().is_some_and(|file| is_at(file, &self.path)) {
             // One that stays does not block.
             let _ = fs::remove_file(&self.path);
         }

@@ -34,6 +34,8 @@ use std::path::{Path, PathBuf};
 use image::ImageError;
 use tempfile::NamedTempFile;
 
+use crate::text::shown;
+
 /// Pixels a metre, as files count them, where there are `dpi` an inch.
 fn per_metre(dpi: u32) -> u32 {
     (f64::from(dpi) / 0.0254).round() as u32
@@ -49,7 +51,7 @@ fn of_image(error: ImageError) -> io::Error {
 
 /// A file or folder that could not be written.
 #[derive(Debug, thiserror::Error)]
-#[error("{}: cannot be written{}", path.display(), advice(error))]
+#[error("{}: cannot be written{}", shown(path), advice(error))]
 pub struct OutputError {
     pub path: PathBuf,
     #[source]

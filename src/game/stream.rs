@@ -79,16 +79,16 @@ impl StreamError {
 }
 
 /// A stream with a look at its first bytes.
-pub struct Input {
+pub struct Stream {
     pub reader: Box<dyn Read + Send>,
     /// All that is known before games are read: at least [`MAGIC`] bytes, if there are so many.
     pub beginning: Vec<u8>,
     pub format: Option<Format>,
 }
 
-impl Input {
+impl Stream {
     /// Looks at a stream, and unpacks it where that can be done.
-    pub fn new(mut reader: Box<dyn Read + Send>) -> io::Result<Input> {
+    pub fn new(mut reader: Box<dyn Read + Send>) -> io::Result<Stream> {
         let beginning = beginning(&mut reader)?;
         let format = Format::of(&beginning);
         let packed: Box<dyn Read + Send> = Box::new(Cursor::new(beginning.clone()).chain(reader));
@@ -100,14 +100,14 @@ impl Input {
             Some(Format::Bzip2) => Box::new(MultiBzDecoder::new(watched)),
             other => {
                 let reader = Box::new(watched.into_inner().packed);
-                return Ok(Input { reader, beginning, format: other });
+                return Ok(Stream { reader, beginning, format: other });
             }
         };
         let format = format.unwrap_or(Format::Zstd);
         let mut unpacked = Unpacked { unpacked, format, end };
         let beginning = self::beginning(&mut unpacked)?;
         let reader = Box::new(Cursor::new(beginning.clone()).chain(unpacked));
-        Ok(Input { reader, beginning, format: Some(format) })
+        Ok(Stream { reader, beginning, format: Some(format) })
     }
 }
 
@@ -191,11 +191,16 @@ struct Frames<R> {
     packed: R,
     decoder: FrameDecoder,
     is_within: bool,
+    /// What ended a frame early; it is told when all that was unpacked before has been read.
+    error: Option<io::Error>,
 }
+
+/// The end of a frame: a last block with nothing in it, and a checksum.
+const LAST: &[u8] = b"\x01\0\0\0\0\0\0";
 
 impl<R: BufRead> Frames<R> {
     fn new(packed: R) -> Frames<R> {
-        Frames { packed, decoder: FrameDecoder::new(), is_within: false }
+        Frames { packed, decoder: FrameDecoder::new(), is_within: false, error: None }
     }
 
     /// Begins the next frame; `false` if there is none.
@@ -227,6 +232,10 @@ impl<R: BufRead> Read for Frames<R> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         loop {
             if self.decoder_is_done() {
+                if let Some(error) = self.error.take() {
+                    self.is_within = false;
+                    return Err(error);
+                }
                 if self.is_within && !checksum_fits(&self.decoder) {
                     return Err(io::ErrorKind::InvalidData.into());
                 }
@@ -237,7 +246,15 @@ impl<R: BufRead> Read for Frames<R> {
             }
             while self.decoder.can_collect() == 0 && !self.decoder.is_finished() {
                 let one = BlockDecodingStrategy::UptoBlocks(1);
-                self.decoder.decode_blocks(&mut self.packed, one).map_err(io::Error::other)?;
+                if let Err(error) = self.decoder.decode_blocks(&mut self.packed, one) {
+                    // The decoder keeps a window of what it has unpacked, until the frame has ended.
+                    let all = BlockDecodingStrategy::All;
+                    let ended =
+                        self.decoder.is_finished() || self.decoder.decode_blocks(LAST, all).is_ok();
+                    self.error = Some(io::Error::other(error));
+                    self.is_within = ended;
+                    break;
+                }
             }
             // A frame may hold nothing.
             let read = self.decoder.read(buffer)?;
