@@ -97,6 +97,11 @@ fn run() -> anyhow::Result<ExitCode> {
             }
             Ok(ExitCode::SUCCESS)
         }
+        Command::Inspect(args) if args.estimate => {
+            let estimate = job::estimate(&args.into_render_job()?, &terminal(Signals::default()))?;
+            writeln!(io::stdout(), "{}", cli::table::estimate(&estimate))?;
+            Ok(ExitCode::SUCCESS)
+        }
         Command::Inspect(args) => {
             let job = args.into_job()?;
             let terminal = terminal(Signals::default());

@@ -156,6 +156,21 @@ fn a_part_of_other_settings_is_not_taken_for_the_whole() {
     assert!(out(folder.path()) == fresh(&[]));
 }
 
+/// A PNG says what it is made of, so that none can stand for another.
+#[test]
+fn a_picture_under_another_name_is_not_taken_for_it() {
+    let folder = TempDir::new().unwrap();
+    done(folder.path(), &[]);
+    let before = out(folder.path());
+    let first = folder.path().join(FIRST);
+    fs::copy(first.join("frame_00004.png"), first.join("frame_00005.png")).unwrap();
+    run(folder.path(), &[&["--frames", "1-2", "--select", "1", "--flip"]]);
+    fs::remove_file(first.join("game_00001-00002.json")).unwrap();
+    let said = done(folder.path(), &[]);
+    assert!(said.contains("12 frames (9 of them were there)"), "{said}");
+    assert!(out(folder.path()) == before);
+}
+
 /// Pictures of other settings whose manifest is about to be written over go with it.
 #[test]
 fn pictures_of_a_part_do_not_outlive_what_is_said_of_them() {
@@ -194,6 +209,12 @@ fn what_is_of_other_settings_can_be_left_alone() {
     let folder = TempDir::new().unwrap();
     done(folder.path(), &[]);
     let before = tree(&folder.path().join(FIRST));
+    // Of the second game alone: the first one stays away too.
+    fs::rename(folder.path().join(FIRST), folder.path().join("first")).unwrap();
+    let others = out(folder.path());
+    assert_eq!(run(folder.path(), &[&["--flip", "--no-replace"]]).0, 1);
+    assert!(out(folder.path()) == others);
+    fs::rename(folder.path().join("first"), folder.path().join(FIRST)).unwrap();
     let (code, said) = run(folder.path(), &[&["--flip", "--no-replace"]]);
     assert_eq!(code, 1, "{said}");
     assert!(said.contains("frame_00000.png: is of another run"), "{said}");

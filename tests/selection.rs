@@ -192,6 +192,27 @@ fn bad_tests_are_told_with_their_flag() {
     }
 }
 
+/// A quick measurement, of which only what is counted is certain.
+#[test]
+fn an_estimate_counts_games_and_frames() {
+    let folder = folder();
+    let quick = ["--size", "16x16", "--aa", "none", "--look", "thesis"];
+    for (command, games, frames) in [
+        (&["render", "masters.pgn", "--estimate", "--limit", "2"][..], 2, 10),
+        (&["render", "masters.pgn", "--estimate", "--at", "end"], 3, 3),
+    ] {
+        let (code, stdout, stderr) = run(folder.path(), &[command, &quick].concat());
+        assert_eq!(code, 0, "{stderr}");
+        let expected = format!("games: {games}; frames: {frames}; about ");
+        assert!(stdout.starts_with(&expected), "{stdout}");
+    }
+    let (code, stdout, stderr) =
+        run(folder.path(), &["inspect", "masters.pgn", "--estimate", "--select", "2"]);
+    assert_eq!(code, 0, "{stderr}");
+    assert!(stdout.starts_with("games: 1; frames: 5; about "), "{stdout}");
+    assert!(!folder.path().join("out").exists());
+}
+
 /// `render` takes the very games that `inspect` does, under the numbers that they have in their files.
 #[test]
 fn the_same_games_are_rendered() {

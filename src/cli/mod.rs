@@ -282,6 +282,10 @@ pub struct InspectArgs {
     /// comments and glyphs say: game, variation, ply, san, clk, emt, eval, csl, cal, nags
     #[arg(long)]
     notes: bool,
+    /// Say how many games and frames `render` would make of them with its defaults, and about how many bytes and
+    /// how long they would take; `render --estimate` takes other settings too
+    #[arg(long, conflicts_with_all = ["positions", "notes"])]
+    pub estimate: bool,
     #[command(flatten)]
     wanted: WantedArgs,
 }
@@ -390,6 +394,15 @@ impl Command {
 }
 
 impl InspectArgs {
+    /// What `render` would do with the games.
+    pub fn into_render_job(self) -> anyhow::Result<RenderJob> {
+        let command = RenderArgs::augment_args(clap::Command::new("render"));
+        let inputs = self.inputs.iter().map(|input| input.as_os_str());
+        let given = ["render".as_ref(), "--".as_ref()].into_iter().chain(inputs);
+        let render = RenderArgs::from_arg_matches(&command.try_get_matches_from(given)?)?;
+        RenderArgs { wanted: self.wanted, letters: self.letters, ..render }.into_job()
+    }
+
     pub fn into_job(self) -> Result<InspectJob, UsageError> {
         let listing = match (self.positions, self.notes) {
             (true, _) => Listing::Positions,

@@ -42,7 +42,7 @@ pub fn games(measurements: &[GameMeasurement]) -> String {
 /// What a job would take.
 pub fn estimate(estimate: &Estimate) -> String {
     let Estimate { games, frames, bytes, seconds, threads } = estimate;
-    let time = match *seconds {
+    let time = match seconds.max(0.0) {
         seconds if seconds < 100.0 => format!("{seconds:.0} s"),
         seconds if seconds < 6000.0 => format!("{:.0} min", seconds / 60.0),
         seconds if seconds < 360_000.0 => format!("{:.0} h", seconds / 3600.0),

@@ -301,6 +301,7 @@ fn span(job: &RenderJob, game: &mut Game) -> Option<[usize; 2]> {
             (flag, moment, format!("is behind the end, {}", game.moment_name(end)))
         }
     };
+    let flag = if job.from == job.to { "--at" } else { flag };
     game.problems.push(Problem {
         line: game.line,
         token: format!("{flag} {moment}"),

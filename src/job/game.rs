@@ -1,7 +1,7 @@
 //! One line of play, a game's or a variation's, as pictures and films in a folder.
 
 use std::collections::BTreeSet;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use rayon::prelude::*;
@@ -18,8 +18,8 @@ use super::studio::Studio;
 use crate::game::Game;
 use crate::notation::Color;
 use crate::output::{
-    Earlier, FilmFormat, FrameNames, PictureFormat, RepeatedPicture, film_name, is_whole,
-    manifest_name, prepare_inside, remove_temporaries, write_json,
+    Earlier, FINGERPRINT, FilmFormat, FrameNames, PictureFormat, RepeatedPicture, film_name,
+    is_whole, manifest_name, prepare_inside, remove_temporaries, write_json,
 };
 use crate::text::shortened;
 use crate::timeline::Timeline;
@@ -79,17 +79,11 @@ impl Line<'_> {
         let Line { game, part, .. } = self;
         let (job, progress) = (run.job, run.progress);
         let (wanted, names) = (job.frames.as_ref(), job.names.as_ref());
-        let folder = self.variation.map_or(self.folder.to_owned(), |name| self.folder.join(name));
-        let folder = prepare_inside(&job.out, &folder)?;
+        let folder = prepare_inside(&job.out, &self.inside())?;
         remove_temporaries(&folder)?;
         let players = [Color::White, Color::Black].map(|color| shortened(game.player(color), 60));
         progress.game(&players.join(" – "));
-        let timeline = Timeline::new(game, part.first, part.last, &run.script);
-        let timeline = timeline.map_err(|error| JobError::Path {
-            file: self.file.to_owned(),
-            game: game.number,
-            error,
-        })?;
+        let timeline = self.timeline(run)?;
         let captions = GameCaptions::new(game, job.picture.config.captions);
 
         let mut planned = self.planned(run, &timeline, &captions);
@@ -97,10 +91,10 @@ impl Line<'_> {
         let earlier = Earlier::read(&folder, wanted);
         let format = names.map_or(PictureFormat::Png, FrameNames::format);
         run.pool.install(|| {
-            planned.par_iter_mut().for_each(|planned| {
-                planned.is_kept = planned.row.file().is_some_and(|file| {
-                    earlier.has_frame(file, planned.row.fingerprint())
-                        && is_whole(&folder.join(file), format)
+            planned.par_iter_mut().for_each(|Planned { row, is_kept, .. }| {
+                *is_kept = row.file().is_some_and(|file| {
+                    earlier.has_frame(file, row.fingerprint())
+                        && is_whole(&folder.join(file), format, row.fingerprint())
                 });
             });
         });
@@ -109,25 +103,11 @@ impl Line<'_> {
         let (kept_films, films): (Vec<_>, Vec<_>) =
             job.films.formats.iter().copied().partition(is_made);
 
-        // What is as it should be but for its bytes is not of another run.
-        let is_ours = |name: &str| {
-            let of_name = |planned: &&Planned| planned.row.file() == Some(name);
-            planned
-                .iter()
-                .find(of_name)
-                .is_some_and(|planned| earlier.has_frame(name, planned.row.fingerprint()))
-        };
         let mut kept = self.folders_within();
         kept.extend(kept_films.iter().map(|format| film(*format)));
         let kept_frames = planned.iter().filter(|planned| planned.is_kept);
         kept.extend(kept_frames.filter_map(|planned| planned.row.file()).map(str::to_owned));
-        let keeps = |name: &str| kept.contains(name);
-        if job.refuses_old
-            && let Some(name) = earlier.first_old(names, |name| keeps(name) || is_ours(name))?
-        {
-            return Err(JobError::WouldReplace { path: folder.join(name) });
-        }
-        earlier.remove(names, keeps)?;
+        earlier.remove(names, |name| kept.contains(name))?;
         let manifest = |films: &[FilmFormat], rows: Vec<&FrameRow>| {
             let films = films.iter().map(|format| film(*format)).collect();
             let path = folder.join(manifest_name(wanted));
@@ -171,7 +151,8 @@ impl Line<'_> {
                         break;
                     }
                     if let Some(file) = row.file().filter(|_| !is_kept) {
-                        let texts = texts(game, &timeline.frame(*index));
+                        let mut texts = texts(game, &timeline.frame(*index));
+                        texts.push((FINGERPRINT, row.fingerprint().to_owned()));
                         desk.take(Sheet { path: folder.join(file), picture, texts }, scope);
                     }
                 }
@@ -197,6 +178,45 @@ impl Line<'_> {
             manifest(&made, rows.map(|(_, planned)| &planned.row).collect())?;
         }
         Ok(filming?)
+    }
+
+    /// Refuses to replace what is of other settings or another game. What is broken is not.
+    pub fn keep_old(&self, run: &Run) -> Result<(), JobError> {
+        let folder = run.job.out.join(self.inside());
+        if !folder.is_dir() {
+            return Ok(());
+        }
+        let timeline = self.timeline(run)?;
+        let captions = GameCaptions::new(self.game, run.job.picture.config.captions);
+        let planned = self.planned(run, &timeline, &captions);
+        let fingerprint = fingerprint(run, &planned);
+        let earlier = Earlier::read(&folder, run.job.frames.as_ref());
+        let mut ours = self.folders_within();
+        let films = run.job.films.formats.iter();
+        let films = films.map(|format| film_name(*format, run.job.frames.as_ref()));
+        ours.extend(films.filter(|film| earlier.has_film(film, &fingerprint)));
+        let rows = planned.iter().map(|planned| &planned.row);
+        let frames = rows.filter_map(|row| Some((row.file()?, row.fingerprint())));
+        let frames = frames.filter(|(file, fingerprint)| earlier.has_frame(file, fingerprint));
+        ours.extend(frames.map(|(file, _)| file.to_owned()));
+        match earlier.first_old(run.job.names.as_ref(), |name| ours.contains(name))? {
+            Some(name) => Err(JobError::WouldReplace { path: folder.join(name) }),
+            None => Ok(()),
+        }
+    }
+
+    /// Its folder within that of all output.
+    fn inside(&self) -> PathBuf {
+        self.variation.map_or(self.folder.to_owned(), |name| self.folder.join(name))
+    }
+
+    fn timeline<'a>(&self, run: &'a Run) -> Result<Timeline<'a>, JobError> {
+        let Part { first, last, .. } = *self.part;
+        Timeline::new(self.game, first, last, &run.script).map_err(|error| JobError::Path {
+            file: self.file.to_owned(),
+            game: self.game.number,
+            error,
+        })
     }
 
     /// All pictures of the line.

@@ -134,7 +134,8 @@ pub fn in_bytes(number: f64) -> String {
     let units = [("TB", 1e12), ("GB", 1e9), ("MB", 1e6), ("kB", 1e3)];
     match units.iter().find(|(_, unit)| number >= *unit) {
         Some((name, unit)) => format!("{:.1} {name}", number / unit),
-        None => format!("{number} bytes"),
+        // Sums of nothing are below nothing.
+        None => format!("{} bytes", number.max(0.0)),
     }
 }
 

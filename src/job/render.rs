@@ -109,6 +109,8 @@ pub fn render(job: &RenderJob, progress: &dyn Progress) -> Result<Summary, JobEr
     }
     let frames = batches.iter().map(|batch| batch.frames).sum();
     check_room(job, frames)?;
+    // From here on a signal ends the run in an orderly way.
+    progress.begin(frames);
     let mut locks = Vec::new();
     for batch in &batches {
         let folder = prepare_inside(&job.out, &batch.folder)?;
@@ -133,7 +135,9 @@ pub fn render(job: &RenderJob, progress: &dyn Progress) -> Result<Summary, JobEr
         fingerprints,
         has_failed: AtomicBool::new(false),
     };
-    progress.begin(frames);
+    if job.refuses_old {
+        batches.iter().try_for_each(|batch| run.keep_old(batch))?;
+    }
     let mut summary = Summary::default();
     for batch in &batches {
         if !summary.cancelled {
@@ -289,6 +293,22 @@ impl Run<'_> {
         let written = report.finish();
         outcome?;
         Ok(written?)
+    }
+
+    /// Refuses to replace what is of other settings or other games, before anything is written.
+    fn keep_old(&self, batch: &Batch) -> Result<(), JobError> {
+        for entry in batch.entries(self.job, &self.script)? {
+            let Entry { game, part, variations } = &entry?;
+            let Some(part) = part else { continue };
+            let (file, folder) = (&batch.input.name, &batch.folder.join(game_folder(game)));
+            Line { file, game, part, folder, variation: None, variations }.keep_old(self)?;
+            for VariationPart { path, folder: name, part } in variations {
+                let Some(game) = &game.with_variation(path) else { continue };
+                let variation = Some(name.as_path());
+                Line { file, game, part, folder, variation, variations }.keep_old(self)?;
+            }
+        }
+        Ok(())
     }
 
     /// Renders game after game until there is none left.

@@ -5,7 +5,6 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::io;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
@@ -13,7 +12,10 @@ use serde_json::Value;
 
 use super::film::FILM_FORMATS;
 use super::frames::frame_index;
-use super::{FrameNames, OutputError, PictureFormat, film_name, manifest_name, remove_temporaries};
+use super::{
+    FrameNames, OutputError, PictureFormat, film_name, manifest_name, remove_if_there,
+    remove_temporaries,
+};
 
 /// A game's folder, with what its manifests say.
 pub struct Earlier {
@@ -199,13 +201,6 @@ fn remove_variation(folder: &Path, names: Option<&FrameNames>) -> Result<(), Out
     // Somebody may keep other things in it.
     let _ = fs::remove_dir(folder);
     Ok(())
-}
-
-fn remove_if_there(path: &Path) -> io::Result<()> {
-    match fs::remove_file(path) {
-        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
-        _ => Ok(()),
-    }
 }
 
 /// Whether a folder is named as those of variations are: `12w-nf3`.

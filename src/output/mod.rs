@@ -25,7 +25,7 @@ pub use png::encode_png;
 pub use record::{JsonLines, write_json};
 pub use repeated::RepeatedPicture;
 pub use slug::slug;
-pub use whole::is_whole;
+pub use whole::{FINGERPRINT, is_whole};
 
 use std::fs;
 use std::io::{self, BufWriter, Write};
@@ -162,6 +162,14 @@ fn staged(path: &Path, content: Content) -> Result<Option<(NamedTempFile, PathBu
         Ok(Some((file, target.clone())))
     };
     written().map_err(|error| OutputError { path: path.to_owned(), error })
+}
+
+/// Removes a file, unless there is none.
+fn remove_if_there(path: &Path) -> io::Result<()> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+        _ => Ok(()),
+    }
 }
 
 /// How names of files begin that are not whole yet.

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 use tempfile::NamedTempFile;
 
-use super::{OutputError, temporary, write_inside};
+use super::{OutputError, remove_if_there, temporary, write_inside};
 
 /// Writes one value, indented for reading.
 ///
@@ -26,13 +26,14 @@ pub struct JsonLines {
 }
 
 impl JsonLines {
-    /// Begins the file `path`.
+    /// Begins the file `path`. One of that name is removed: it tells of what is no more.
     ///
     /// # Errors
     /// When it cannot be written.
     pub fn begin(path: &Path) -> Result<JsonLines, OutputError> {
         let path = path.to_owned();
-        match temporary(&path) {
+        let begun = remove_if_there(&path).and_then(|()| temporary(&path));
+        match begun {
             Ok(file) => Ok(JsonLines { path, out: BufWriter::new(file) }),
             Err(error) => Err(OutputError { path, error }),
         }

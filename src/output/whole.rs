@@ -1,4 +1,4 @@
-//! Whether a picture's file is whole.
+//! Whether a picture's file is whole, and of what it should be.
 
 use std::fs::{self, File};
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
@@ -11,13 +11,20 @@ use super::picture::PictureFormat;
 /// The first bytes of every PNG.
 const SIGNATURE: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
 
-/// Whether the file at `path` is a picture of that format from its first byte to its last. In PNG each flipped bit is
-/// noticed, in the other formats what keeps it from being decoded. What a link leads to is none of ours.
-pub fn is_whole(path: &Path, format: PictureFormat) -> bool {
+/// The keyword of the text in which a PNG says what it is made of.
+pub const FINGERPRINT: &str = "Fingerprint";
+
+/// Whether the file at `path` is a picture of that format from its first byte to its last. A PNG must say that it has that
+/// `fingerprint`, and each flipped bit is noticed; in the other formats what keeps it from being decoded. What a link leads
+/// to is none of ours.
+pub fn is_whole(path: &Path, format: PictureFormat, fingerprint: &str) -> bool {
     let is_file = fs::symlink_metadata(path).is_ok_and(|data| data.is_file());
     is_file
         && match format {
-            PictureFormat::Png => File::open(path).and_then(|file| ends_well(BufReader::new(file))),
+            PictureFormat::Png => {
+                let says = File::open(path).and_then(|file| fingerprint_of(BufReader::new(file)));
+                says.map(|says| says.as_deref() == Some(fingerprint.as_bytes()))
+            }
             PictureFormat::Jpeg => is_jpeg(path),
             PictureFormat::Bmp => decodes(path, ImageFormat::Bmp),
             PictureFormat::Tiff => decodes(path, ImageFormat::Tiff),
@@ -26,12 +33,13 @@ pub fn is_whole(path: &Path, format: PictureFormat) -> bool {
         .unwrap_or(false)
 }
 
-/// Whether chunks with right sums follow each other, and the last one ends the file.
-fn ends_well(mut file: impl Read) -> io::Result<bool> {
+/// The fingerprint of a PNG whose chunks follow each other with right sums, and whose last one ends the file.
+fn fingerprint_of(mut file: impl Read) -> io::Result<Option<Vec<u8>>> {
+    let mut fingerprint = None;
     let mut signature = [0; 8];
     file.read_exact(&mut signature)?;
     if signature != SIGNATURE {
-        return Ok(false);
+        return Ok(None);
     }
     let mut data = Vec::new();
     loop {
@@ -42,7 +50,7 @@ fn ends_well(mut file: impl Read) -> io::Result<bool> {
         data.clear();
         // No more than there is, whatever the length says.
         if file.by_ref().take(length).read_to_end(&mut data)? as u64 != length {
-            return Ok(false);
+            return Ok(None);
         }
         let mut sum = crc32fast::Hasher::new();
         sum.update(&kind);
@@ -50,10 +58,15 @@ fn ends_well(mut file: impl Read) -> io::Result<bool> {
         let mut told = [0; 4];
         file.read_exact(&mut told)?;
         if sum.finalize() != u32::from_be_bytes(told) {
-            return Ok(false);
+            return Ok(None);
+        }
+        if let Some(text) = data.strip_prefix(FINGERPRINT.as_bytes())
+            && &kind == b"tEXt"
+        {
+            fingerprint = text.strip_prefix(b"\0").map(<[u8]>::to_vec);
         }
         if &kind == b"IEND" {
-            return Ok(file.read(&mut [0])? == 0);
+            return Ok(fingerprint.filter(|_| file.read(&mut [0]).is_ok_and(|read| read == 0)));
         }
     }
 }
@@ -85,13 +98,15 @@ mod tests {
             RgbImage::from_fn(200, 100, |x, y| Rgb([x as u8, y as u8, (x * y) as u8])).into();
         for (ending, format) in FORMATS {
             let path = folder.path().join(format!("x.{ending}"));
-            assert!(!is_whole(&path, format), "{ending}");
-            write_picture(&path, &picture, &[("Ply", "1".to_owned())], None).unwrap();
-            assert!(is_whole(&path, format), "{ending}");
+            assert!(!is_whole(&path, format, "a7"), "{ending}");
+            write_picture(&path, &picture, &[(FINGERPRINT, "a7".to_owned())], None).unwrap();
+            assert!(is_whole(&path, format, "a7"), "{ending}");
+            // The others have no texts.
+            assert_eq!(is_whole(&path, format, "a"), format != PictureFormat::Png, "{ending}");
             let bytes = fs::read(&path).unwrap();
             for length in [0, 1, 7, 20, bytes.len() / 2, bytes.len() * 3 / 4] {
                 fs::write(&path, &bytes[..length]).unwrap();
-                assert!(!is_whole(&path, format), "{ending}: {length}");
+                assert!(!is_whole(&path, format, "a7"), "{ending}: {length}");
             }
         }
     }
@@ -100,14 +115,14 @@ mod tests {
     fn every_flipped_bit_of_a_png_is_noticed() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("x.png");
-        write_picture(&path, &DynamicImage::new_rgb8(5, 4), &[("Ply", "1".to_owned())], None)
-            .unwrap();
+        let texts = [("Ply", "1".to_owned()), (FINGERPRINT, "a7".to_owned())];
+        write_picture(&path, &DynamicImage::new_rgb8(5, 4), &texts, None).unwrap();
         let bytes = fs::read(&path).unwrap();
         for bit in 0..bytes.len() * 8 {
             let mut flipped = bytes.clone();
             flipped[bit / 8] ^= 1 << (bit % 8);
-            assert!(!ends_well(&flipped[..]).unwrap_or(false), "{bit}");
+            assert_eq!(fingerprint_of(&flipped[..]).unwrap_or(None), None, "{bit}");
         }
-        assert!(!ends_well(&[&bytes[..], b"\0"].concat()[..]).unwrap());
+        assert_eq!(fingerprint_of(&[&bytes[..], b"\0"].concat()[..]).unwrap(), None);
     }
 }
