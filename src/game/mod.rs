@@ -10,16 +10,13 @@ mod bytes;
 mod clock;
 mod command;
 mod comment;
-mod date;
 mod glyph;
 mod letters;
 mod line;
 mod movetext;
 mod notes;
 mod outcome;
-mod pattern;
 mod plain;
-mod player;
 mod replay;
 mod scan;
 mod scanned;
@@ -27,28 +24,26 @@ mod select;
 mod source;
 mod start;
 mod stream;
-mod tag_test;
 mod variant;
 mod variation;
 mod wanted;
-mod wildcard;
 mod word;
 
 pub use clock::Clocks;
 pub use letters::{Language, Letters, ParseLettersError};
 pub use notes::{Eval, Notes};
 pub use outcome::Ending;
-pub use pattern::{ParsePatternError, PositionPattern};
-pub use player::{Players, PlayersError};
 pub use scan::{Head, Scanner};
 pub use scanned::ScannedGame;
 pub use select::{Absent, Moment, ParseMomentError, ParseSelectionError, Selection};
 pub use source::{Games, Source, SourceError};
 pub use start::{fen_in_hand, fen_position};
 pub use stream::{Format, StreamError};
-pub use tag_test::{ParseTagTestError, TagTest};
 pub use variation::Branch;
-pub use wanted::{ParsePlyRangeError, PlyRange, Wanted, WantedGames};
+pub use wanted::{
+    ParsePatternError, ParsePlyRangeError, ParseTagTestError, Players, PlayersError, PlyRange,
+    PositionPattern, TagTest, Wanted, WantedGames,
+};
 
 use shakmaty::fen::Fen;
 use shakmaty::san::SanPlus;

@@ -13,7 +13,7 @@ use super::bytes::{Bytes, LONGEST_BRACKET};
 use super::comment::Comment;
 
 use super::plain;
-use super::scanned::{ScannedGame, hides_much};
+use super::scanned::{MOST_TAGS, ScannedGame, hides_much};
 use super::stream::StreamError;
 use super::word::{Word, classify, decoded, is_harmless, parse_tag};
 use super::{LONGEST_TOKEN, Problem, movetext};
@@ -60,9 +60,6 @@ enum Next {
     SameGame,
     NewGame,
 }
-
-/// How many tags of a game are read. Files have some twenty.
-pub(super) const MOST_TAGS: usize = 1000;
 
 /// Tags that begin a section; one of them within a comment shows that a brace was forgotten.
 const FIRST_TAGS: [&str; 10] =

@@ -4,10 +4,12 @@ use super::bytes::LONGEST_BRACKET;
 use super::comment::Comment;
 use super::line::{Line, ScannedVariation};
 use super::plain::Plain;
-use super::scan::MOST_TAGS;
 use super::word::is_harmless;
 use super::{Problem, movetext};
 use crate::text::printable;
+
+/// How many tags of a game are read. Files have some twenty.
+pub(super) const MOST_TAGS: usize = 1000;
 
 /// How deep variations may lie within each other; what lies deeper is left out.
 const DEEPEST: usize = 32;

@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use super::input::Input;
-use super::render::RenderJob;
+use super::run::RenderJob;
 use super::{JobError, MAX_FRAMES, Progress, say_missing, say_problems, say_variations};
 use crate::game::{Absent, Game, Problem, Variation, WantedGames};
 use crate::notation::Color;

@@ -4,7 +4,8 @@ use std::time::{Duration, Instant};
 
 use super::batch::{Batch, Entry, Part};
 use super::captions::GameCaptions;
-use super::render::{RenderJob, survey};
+use super::render::survey;
+use super::run::RenderJob;
 use super::studio::Studio;
 use super::{JobError, Progress};
 use crate::game::Game;

@@ -3,7 +3,8 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use super::studio::{PictureSettings, stage};
+use super::settings::PictureSettings;
+use super::studio::stage;
 use super::subject::{Subject, keep_inputs};
 use super::{JobError, Progress, Showing};
 use crate::export::pov;

@@ -6,7 +6,7 @@ use std::io;
 
 use sha2::{Digest, Sha256};
 
-use super::studio::{PictureSettings, shown_of};
+use super::settings::{PictureSettings, shown_of};
 use crate::caption::Content;
 use crate::scene::Reach;
 use crate::timeline::Frame;

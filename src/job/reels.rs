@@ -9,21 +9,14 @@ use std::time::Duration;
 use std::vec::IntoIter;
 
 use super::Progress;
+use super::run::Films;
 use super::shots::Shots;
 
-use crate::output::{Ffmpeg, FilmFormat, FilmWriter, OutputError, RepeatedPicture, Stop};
+use crate::output::{FilmFormat, FilmWriter, OutputError, RepeatedPicture, Stop};
 
 /// How many pictures may wait for a film: enough that a picture that takes long does not hold up the others, and no more
 /// than memory has room for.
 const WAITING: usize = 4;
-
-/// What films are wanted of each game.
-#[derive(Clone, Debug, Default)]
-pub struct Films {
-    pub formats: Vec<FilmFormat>,
-    /// Who makes MP4; the encoder inside where there is none.
-    pub ffmpeg: Option<Ffmpeg>,
-}
 
 /// The films of one game.
 pub struct Reels<'a> {

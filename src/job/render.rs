@@ -2,7 +2,6 @@
 
 use std::fs;
 use std::iter::Enumerate;
-use std::ops::RangeInclusive;
 use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -16,46 +15,16 @@ use super::desk::Desk;
 use super::fingerprint::Fingerprints;
 use super::game::{Line, Rendered};
 use super::input::Input;
-use super::reels::Films;
 use super::report::{Report, ReportLine, Status, VariationLine};
 use super::room::check_room;
+use super::run::{RenderJob, Run};
 use super::shared::Shared;
-use super::studio::{PictureSettings, Studio};
-use super::{JobError, Progress, Showing, nothing_selected};
+use super::studio::Studio;
+use super::{JobError, Progress, nothing_selected};
 use crate::config::Config;
-use crate::game::{Letters, Moment, Wanted};
-use crate::output::{
-    FilmFormat, FolderLock, FrameNames, film_name, prepare_inside, remove_temporaries,
-};
-use crate::timeline::{Bodies, Script};
+use crate::output::{FilmFormat, FolderLock, film_name, prepare_inside, remove_temporaries};
+use crate::timeline::Bodies;
 use crate::tracer::RayCounts;
-
-/// Which games to render, how, and where to.
-#[derive(Clone, Debug)]
-pub struct RenderJob {
-    /// Files of games; `-` is the standard input.
-    pub inputs: Vec<PathBuf>,
-    /// The folder that gets one folder a file, each with one folder a game.
-    pub out: PathBuf,
-    pub wanted: Wanted,
-    pub letters: Letters,
-    /// The first position and the last one.
-    pub from: Moment,
-    pub to: Moment,
-    /// Whether variations are rendered too, each in a folder of its own within its game's.
-    pub variations: bool,
-    pub showing: Showing,
-    /// Which frames of each game, counted as in the whole; all when `None`.
-    pub frames: Option<RangeInclusive<usize>>,
-    /// Every so manyth frame is rendered, and the last one; at least 1.
-    pub every: usize,
-    /// Whether to give up rather than replace pictures of other settings or games.
-    pub refuses_old: bool,
-    /// How frames are named as pictures; there are none when `None`.
-    pub names: Option<FrameNames>,
-    pub films: Films,
-    pub picture: PictureSettings,
-}
 
 /// What a job did.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -226,17 +195,6 @@ fn keep_out(job: &RenderJob, folder: &Path) -> Result<(), JobError> {
     }
 }
 
-/// A job under way.
-pub struct Run<'a> {
-    pub job: &'a RenderJob,
-    pub script: Script,
-    pub progress: &'a dyn Progress,
-    pub pool: &'a ThreadPool,
-    pub fingerprints: Fingerprints<'a>,
-    /// Whether a game could not be rendered, so that others are not begun or gone on with.
-    has_failed: AtomicBool,
-}
-
 /// Stops the others when who holds it breaks down.
 struct StopsOthers<'a>(&'a AtomicBool);
 
@@ -257,11 +215,6 @@ struct Shift<'a> {
 }
 
 impl Run<'_> {
-    /// Whether no more is to be rendered.
-    pub fn is_over(&self) -> bool {
-        self.progress.is_cancelled() || self.has_failed.load(Ordering::Relaxed)
-    }
-
     /// Renders the games of a file, as many at once as there are `studios`; the report tells of all that were begun, even
     /// where one fails.
     fn batch(

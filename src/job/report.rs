@@ -6,7 +6,7 @@ use std::path::Path;
 use serde::Serialize;
 use serde_json::{Map, Value};
 
-use super::studio::SettingsRecord;
+use super::settings::SettingsRecord;
 use crate::game::{Game, Problem, Variation};
 use crate::notation::Color;
 use crate::output::{JsonLines, OutputError};

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use super::JobError;
-use super::render::RenderJob;
+use super::run::RenderJob;
 use crate::config::Config;
 use crate::output::PictureFormat;
 

@@ -2,7 +2,7 @@
 
 use super::batch::Part;
 use super::captions::GameCaptions;
-use super::studio::{PictureSettings, shown_of};
+use super::settings::{PictureSettings, shown_of};
 use crate::caption::Content;
 use crate::config::Config;
 use crate::output::Cut;

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use super::captions::{self, GameCaptions};
 use super::report::texts;
-use super::studio::{PictureSettings, bodies};
+use super::settings::PictureSettings;
+use super::studio::bodies;
 use super::{JobError, Progress, Showing, say_problems};
 use crate::caption::Content;
 use crate::game::{Game, Letters, Moment, Source};

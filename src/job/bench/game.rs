@@ -8,7 +8,8 @@ use super::BenchJob;
 use crate::assets::SetName;
 use crate::config::{Config, Look, Quality, View};
 use crate::game::{Game, Scanner};
-use crate::job::studio::{PictureSettings, Studio};
+use crate::job::settings::PictureSettings;
+use crate::job::studio::Studio;
 use crate::job::{JobError, Showing};
 use crate::timeline::{Film, Pause, Timeline};
 

@@ -1,14 +1,22 @@
 //! Which games are wanted, of all that files hold.
 
+mod date;
+mod pattern;
+mod player;
+mod tags;
+mod wildcard;
+
+pub use pattern::{ParsePatternError, PositionPattern};
+pub use player::{Players, PlayersError};
+pub use tags::{ParseTagTestError, TagTest};
+
 use std::ops::RangeInclusive;
 use std::str::FromStr;
 
 use shakmaty::Position;
 
 use super::scan::Head;
-use super::{
-    Ending, Game, Games, Players, PositionPattern, Selection, Source, SourceError, TagTest,
-};
+use super::{Ending, Game, Games, Selection, Source, SourceError};
 
 /// Which games are wanted; all by default. A game must pass every test that is there.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 use super::date::Period;
 use super::wildcard::{Wildcard, plain};
-use super::{is_known, tag};
+use crate::game::{is_known, tag};
 
 /// A test of one tag: its name, a comparison and a value.
 ///

@@ -1,7 +1,7 @@
 //! Players by name, whatever the order of its parts.
 
 use super::wildcard::{Wildcard, plain};
-use super::{is_known, tag};
+use crate::game::{is_known, tag};
 
 /// Who must have played a game: each by a name of their own, with either colour.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

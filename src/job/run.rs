@@ -1,0 +1,67 @@
+//! A job of rendering: what is wanted, and what those who do it share.
+
+use std::ops::RangeInclusive;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use rayon::ThreadPool;
+
+use super::fingerprint::Fingerprints;
+use super::settings::PictureSettings;
+use super::{Progress, Showing};
+use crate::game::{Letters, Moment, Wanted};
+use crate::output::{Ffmpeg, FilmFormat, FrameNames};
+use crate::timeline::Script;
+
+/// Which games to render, how, and where to.
+#[derive(Clone, Debug)]
+pub struct RenderJob {
+    /// Files of games; `-` is the standard input.
+    pub inputs: Vec<PathBuf>,
+    /// The folder that gets one folder a file, each with one folder a game.
+    pub out: PathBuf,
+    pub wanted: Wanted,
+    pub letters: Letters,
+    /// The first position and the last one.
+    pub from: Moment,
+    pub to: Moment,
+    /// Whether variations are rendered too, each in a folder of its own within its game's.
+    pub variations: bool,
+    pub showing: Showing,
+    /// Which frames of each game, counted as in the whole; all when `None`.
+    pub frames: Option<RangeInclusive<usize>>,
+    /// Every so manyth frame is rendered, and the last one; at least 1.
+    pub every: usize,
+    /// Whether to give up rather than replace pictures of other settings or games.
+    pub refuses_old: bool,
+    /// How frames are named as pictures; there are none when `None`.
+    pub names: Option<FrameNames>,
+    pub films: Films,
+    pub picture: PictureSettings,
+}
+
+/// What films are wanted of each game.
+#[derive(Clone, Debug, Default)]
+pub struct Films {
+    pub formats: Vec<FilmFormat>,
+    /// Who makes MP4; the encoder inside where there is none.
+    pub ffmpeg: Option<Ffmpeg>,
+}
+
+/// A job under way.
+pub struct Run<'a> {
+    pub job: &'a RenderJob,
+    pub script: Script,
+    pub progress: &'a dyn Progress,
+    pub pool: &'a ThreadPool,
+    pub fingerprints: Fingerprints<'a>,
+    /// Whether a game could not be rendered, so that others are not begun or gone on with.
+    pub has_failed: AtomicBool,
+}
+
+impl Run<'_> {
+    /// Whether no more is to be rendered.
+    pub fn is_over(&self) -> bool {
+        self.progress.is_cancelled() || self.has_failed.load(Ordering::Relaxed)
+    }
+}
