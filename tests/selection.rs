@@ -192,6 +192,32 @@ fn bad_tests_are_told_with_their_flag() {
     }
 }
 
+/// Nobody waits for the end of what never ends.
+#[test]
+fn the_standard_input_is_read_as_far_as_games_are_wanted() {
+    use std::io::Write;
+    use std::process::{Command, Stdio};
+    for flags in [&["--limit", "2"][..], &["--select", "1:2"]] {
+        let folder = folder();
+        let mut child = Command::new(env!("CARGO_BIN_EXE_lightsquare"))
+            .current_dir(folder.path())
+            .args([
+                "render", "-", "--at", "end", "--look", "thesis", "--aa", "none", "--size", "8x8",
+                "-q",
+            ])
+            .args(flags)
+            .stdin(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut input = child.stdin.take().unwrap();
+        // It ends while it is still written to.
+        while input.write_all(OTHERS.as_bytes()).is_ok() {}
+        assert_eq!(child.wait().unwrap().code(), Some(0), "{flags:?}");
+        let games = fs::read_dir(folder.path().join("out/stdin")).unwrap().count();
+        assert_eq!(games, 3, "{flags:?}: two games and the report");
+    }
+}
+
 /// A quick measurement, of which only what is counted is certain.
 #[test]
 fn an_estimate_counts_games_and_frames() {

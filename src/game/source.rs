@@ -7,7 +7,7 @@ use std::path::Path;
 use super::scan::{All, Head};
 use super::stream::{Format, Stream, StreamError};
 use super::{Game, Letters, Problem, Scanner};
-use crate::text::printable;
+use crate::text::shown;
 
 /// A file of games that is open, or the standard input.
 pub struct Source {
@@ -57,14 +57,7 @@ impl Source {
     /// # Errors
     /// When there is no such file, or it is a folder, empty, or no text that can be read.
     pub fn open(path: &Path) -> Result<Source, SourceError> {
-        Source::open_as(path, printable(&path.to_string_lossy()))
-    }
-
-    /// The same, under a `name` of its own in messages.
-    ///
-    /// # Errors
-    /// As [`Source::open`].
-    pub fn open_as(path: &Path, name: String) -> Result<Source, SourceError> {
+        let name = shown(path);
         let failed = |error: io::Error| match error.kind() {
             io::ErrorKind::NotFound => SourceError::Missing { name: name.clone() },
             io::ErrorKind::IsADirectory => SourceError::Folder { name: name.clone() },
@@ -78,7 +71,16 @@ impl Source {
             }
             Box::new(File::open(path).map_err(&failed)?)
         };
-        let Stream { reader, beginning, format } = Stream::new(reader).map_err(&failed)?;
+        Source::of(name, reader)
+    }
+
+    /// Reads from anywhere else, under a `name` in messages.
+    ///
+    /// # Errors
+    /// As [`Source::open`].
+    pub fn of(name: String, reader: Box<dyn Read + Send>) -> Result<Source, SourceError> {
+        let failed = |error| SourceError::of(name.clone(), error);
+        let Stream { reader, beginning, format } = Stream::new(reader).map_err(failed)?;
         let is_unpacked = matches!(format, Some(Format::Zstd | Format::Gzip | Format::Bzip2));
         match (format, Format::of(&beginning)) {
             (Some(outer), Some(inner)) if is_unpacked => {

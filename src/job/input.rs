@@ -1,49 +1,68 @@
 //! Files of games that are read more than once.
 
 use std::fs::File;
-use std::io;
+use std::io::{self, Read, Seek, Write};
 use std::path::{Path, PathBuf};
-
-use tempfile::TempPath;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::game::{Source, SourceError};
 use crate::text::shown;
 
-/// A file of games, or what came from the standard input.
+/// A file of games, or what comes from the standard input.
 pub struct Input {
     /// As messages show it.
     pub name: String,
     path: PathBuf,
-    /// The standard input comes once; what came is kept here.
-    kept: Option<TempPath>,
+    /// The standard input comes once: what has come is kept here, in a file without a name.
+    kept: Option<File>,
+    is_known: AtomicBool,
 }
 
 impl Input {
-    /// Reads the standard input to its end for `-`; of a file nothing yet.
+    /// Reads nothing yet; `-` is the standard input.
     ///
     /// # Errors
-    /// When the standard input cannot be read, or there is no room for it among temporary files.
+    /// When there is no room among temporary files to keep the standard input.
     pub fn new(path: &Path) -> Result<Input, SourceError> {
         let name = shown(path);
         let kept = match path == Path::new("-") {
-            true => Some(kept().map_err(|error| SourceError::Io { name: name.clone(), error })?),
+            true => Some(tempfile::tempfile().map_err(|error| failed(&name, error))?),
             false => None,
         };
-        Ok(Input { name, path: path.to_owned(), kept })
+        Ok(Input { name, path: path.to_owned(), kept, is_known: AtomicBool::new(false) })
     }
 
-    /// Opens it, at its beginning.
+    /// Opens it at its beginning. Of the standard input nothing is read that the first one who opens it does not want; those
+    /// who come after get that.
     ///
     /// # Errors
     /// As [`Source::open`].
     pub fn open(&self) -> Result<Source, SourceError> {
-        let path = self.kept.as_deref().unwrap_or(&self.path);
-        Source::open_as(path, self.name.clone())
+        let Some(kept) = &self.kept else { return Source::open(&self.path) };
+        let mut kept = kept.try_clone().map_err(|error| failed(&self.name, error))?;
+        kept.rewind().map_err(|error| failed(&self.name, error))?;
+        let reader: Box<dyn Read + Send> = match self.is_known.swap(true, Ordering::Relaxed) {
+            true => Box::new(kept),
+            false => Box::new(Kept { from: io::stdin(), to: kept }),
+        };
+        Source::of(self.name.clone(), reader)
     }
 }
 
-fn kept() -> io::Result<TempPath> {
-    let (mut file, path): (File, TempPath) = tempfile::NamedTempFile::new()?.into_parts();
-    io::copy(&mut io::stdin().lock(), &mut file)?;
-    Ok(path)
+fn failed(name: &str, error: io::Error) -> SourceError {
+    SourceError::Io { name: name.to_owned(), error }
+}
+
+/// What is read is kept.
+struct Kept<R> {
+    from: R,
+    to: File,
+}
+
+impl<R: Read> Read for Kept<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let read = self.from.read(buffer)?;
+        self.to.write_all(&buffer[..read])?;
+        Ok(read)
+    }
 }
