@@ -113,8 +113,12 @@ impl<E: Eye<[Sample], Glimpse>> Exposure<E> {
         for pixel in some {
             let (spot, sum) = (spots[*pixel], &sums[*pixel]);
             let known = guides[*pixel].known;
+            let ties = match &ties {
+                Some(ties) => ties[*pixel],
+                None => Ties::default(),
+            };
             for index in sum.count..wanted(sum) {
-                samples.push(Sample { spot, index, is_centered, known });
+                samples.push(Sample { spot, index, is_centered, known, ties });
             }
         }
         let mut seen = Vec::with_capacity(samples.len());
@@ -237,10 +241,13 @@ impl<E: Eye<[Sample], Glimpse>> Painter for Exposure<E> {
         spots: &[Spot],
         looks: &Plane<Sum>,
         made: &mut Vec<Exposed>,
+        first: Option<&Plane<Ties>>,
         ties: Option<&mut Vec<Ties>>,
     ) -> RayCounts {
         let mut sums: Vec<Sum> = spots.iter().map(|spot| looks.at(*spot)).collect();
-        let mut each = ties.as_ref().map(|_| vec![Ties::default(); spots.len()]);
+        // What the first looks depend on need not be looked out for again.
+        let mut each: Option<Vec<Ties>> =
+            first.map(|first| spots.iter().map(|spot| first.at(*spot)).collect());
         let mut counts = RayCounts::default();
         let plans: Vec<Plan> = spots.iter().map(|spot| self.plan(*spot, looks)).collect();
         let guides: Vec<Guide> =

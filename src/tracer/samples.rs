@@ -4,6 +4,7 @@ use glam::Vec3;
 
 use super::outlook::{BOXES, Known, Outlook, POOLS, SKY, Shares};
 use super::plane::Spot;
+use super::ties::Ties;
 
 /// What numbers are for: where in the pixel a sample goes through.
 pub const PLACE: u32 = 0;
@@ -23,6 +24,8 @@ pub struct Sample {
     pub is_centered: bool,
     /// What it need not ask.
     pub known: Known,
+    /// What its pixel depends on anyway.
+    pub ties: Ties,
 }
 
 /// What a single ray from the camera brings back.

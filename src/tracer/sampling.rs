@@ -135,6 +135,7 @@ impl<E: Eye<Places, Seen> + Eye<Places, Shade>> Painter for Sampling<E> {
         spots: &[Spot],
         looks: &Plane<Seen>,
         made: &mut Vec<Stored>,
+        _: Option<&Plane<Ties>>,
         ties: Option<&mut Vec<Ties>>,
     ) -> RayCounts {
         let Antialiasing::Adaptive { threshold, .. } = self.mode else {

@@ -28,12 +28,13 @@ pub trait Painter: Sync {
     ) -> RayCounts;
 
     /// Appends the work on pixels, and if it is asked for what this depends on besides their first
-    /// looks and those of the pixels round them.
+    /// looks, which is `first`, and those of the pixels round them.
     fn work(
         &self,
         spots: &[Spot],
         looks: &Plane<Self::Look>,
         made: &mut Vec<Self::Work>,
+        first: Option<&Plane<Ties>>,
         ties: Option<&mut Vec<Ties>>,
     ) -> RayCounts;
 
@@ -194,17 +195,18 @@ impl<L: Copy + Send + Sync, W: Copy + Send + Sync> Sketch<L, W> {
         notes: bool,
     ) -> RayCounts {
         let looks = &self.looks;
-        let Some(Kept { works, ties: [_, record] }) = &mut self.kept else {
+        let Some(Kept { works, ties: [first, record] }) = &mut self.kept else {
             return fill(&mut self.picture, some, None, |spots, made, _| {
                 let mut works = Vec::with_capacity(spots.len());
-                let counts = painter.work(spots, looks, &mut works, None);
+                let counts = painter.work(spots, looks, &mut works, None, None);
                 let pairs = spots.iter().zip(&works);
                 made.extend(pairs.map(|(spot, work)| painter.finish(*spot, looks, work)));
                 counts
             });
         };
         fill(works, some, notes.then_some(record), |spots, made, ties| {
-            painter.work(spots, looks, made, ties)
+            let first = ties.as_ref().map(|_| &first.pixels);
+            painter.work(spots, looks, made, first, ties)
         })
     }
 

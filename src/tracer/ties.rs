@@ -65,6 +65,22 @@ impl<S: Simd> Ties8<S> {
         Ties8 { words: [U32x8::splat(0); WORDS] }
     }
 
+    /// What they depend on already.
+    #[inline(always)]
+    pub fn load(ties: &[Ties; 8]) -> Ties8<S> {
+        let mut words = [[0; 8]; WORDS];
+        for (lane, ties) in ties.iter().enumerate() {
+            for (word, tie) in words.iter_mut().zip(ties.0) {
+                word[lane] = tie;
+            }
+        }
+        let mut all = Ties8::new();
+        for (word, lanes) in all.words.iter_mut().zip(&words) {
+            *word = U32x8::load(lanes);
+        }
+        all
+    }
+
     #[inline(always)]
     pub fn store(&self) -> [Ties; 8] {
         let mut ties = [Ties::default(); 8];

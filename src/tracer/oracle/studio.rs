@@ -366,17 +366,19 @@ impl Eye<[Sample], Glimpse> for Studio<'_> {
         // It does not know.
         let mut all = RayCounts::default();
         let ([width, height], camera) = (self.size, &self.world.scene.camera);
-        seen.extend(samples.iter().map(|&Sample { spot: [x, y], index, is_centered, known }| {
-            let numbers = Sequence::new(x, y, index);
-            let (dx, dy) = if is_centered { (0.5, 0.5) } else { numbers.pair(PLACE) };
-            let ray = camera.ray(f64::from(x) + dx, f64::from(y) + dy, width, height);
-            let ray = camera.ray_through_lens(ray, || numbers.pair(LENS));
-            let (counts, outlook) = (RayCounts::default(), Outlook::default());
-            let mut draw = Draw { numbers, known, counts, outlook };
-            let glimpse = self.trace(ray, camera.spread(width) / self.across, &mut draw);
-            all = all + draw.counts;
-            glimpse
-        }));
+        seen.extend(samples.iter().map(
+            |&Sample { spot: [x, y], index, is_centered, known, .. }| {
+                let numbers = Sequence::new(x, y, index);
+                let (dx, dy) = if is_centered { (0.5, 0.5) } else { numbers.pair(PLACE) };
+                let ray = camera.ray(f64::from(x) + dx, f64::from(y) + dy, width, height);
+                let ray = camera.ray_through_lens(ray, || numbers.pair(LENS));
+                let (counts, outlook) = (RayCounts::default(), Outlook::default());
+                let mut draw = Draw { numbers, known, counts, outlook };
+                let glimpse = self.trace(ray, camera.spread(width) / self.across, &mut draw);
+                all = all + draw.counts;
+                glimpse
+            },
+        ));
         all
     }
 }

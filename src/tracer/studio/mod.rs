@@ -150,10 +150,11 @@ impl<'a> Studio<'a> {
         ties: Option<&mut Vec<Ties>>,
     ) -> RayCounts {
         let ([mut x, mut y, mut index], mut known) = ([[0; 8]; 3], [Known::default(); 8]);
+        let mut tied = [Ties::default(); 8];
         for lane in 0..LANES {
             let sample = &samples[lane.min(samples.len() - 1)];
             [x[lane], y[lane]] = sample.spot;
-            (index[lane], known[lane]) = (sample.index, sample.known);
+            (index[lane], known[lane], tied[lane]) = (sample.index, sample.known, sample.ties);
         }
         let (x, y) = (U32x8::<S>::load(&x), U32x8::load(&y));
         let numbers = Sequences::new(x, y, U32x8::load(&index));
@@ -166,7 +167,7 @@ impl<'a> Studio<'a> {
             self.pinhole.rays(x.i32_to_f32() + dx, y.i32_to_f32() + dy)
         };
         let (zero, one) = (F32x8::splat(0.0), F32x8::splat(1.0));
-        let mut found = ties.is_some().then(Ties8::new);
+        let mut found = if ties.is_some() { Some(Ties8::load(&tied)) } else { None };
         let index = if self.world.is_transparent() {
             self.world.index_at(rays.origin, lanes, &mut found)
         } else {
