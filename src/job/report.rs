@@ -205,9 +205,7 @@ impl FrameRow {
             camera: frame.gaze,
         }
     }
-}
 
-impl FrameRow {
     pub fn file(&self) -> Option<&str> {
         self.file.as_deref()
     }
