@@ -4,12 +4,17 @@ mod cli;
 mod progress;
 mod signals;
 
+use std::env;
 use std::io::{self, BufWriter, ErrorKind, Write};
+use std::path::Path;
 use std::process::ExitCode;
 
 use anstyle::{AnsiColor, Style};
 use anyhow::Context;
-use lightsquare::job::{self, DiagramJob, JobError, PictureSettings, Progress};
+use lightsquare::job::{
+    self, DiagramJob, JobError, Merged, PictureSettings, Plan, Progress, RenderJob, Summary,
+    Verdict,
+};
 use lightsquare::tracer::RayCounts;
 
 use cli::{Cli, Command, UsageError};
@@ -48,36 +53,59 @@ fn run() -> anyhow::Result<ExitCode> {
             Ok(ExitCode::SUCCESS)
         }
         Command::Render(args) => {
-            let job = args.into_job()?;
             let signals = Signals::watch().context("signals cannot be watched")?;
+            if let Some(path) = &args.plan {
+                let plan = open_plan(path)?;
+                let (shard, threads) = args.shard(&plan)?;
+                let job = cli::planned_job(&plan, threads)?;
+                // A signal ends it at once: whoever sends it will not wait, and the next one goes on from there.
+                let terminal = terminal(Signals::default());
+                tell_config(&terminal, &job.picture);
+                let summary = job::render_shard(&plan, &job, shard, &terminal);
+                terminal.finish();
+                let Summary { frames, kept, .. } = summary?;
+                let frames = frames_of(frames, kept);
+                terminal.say(&format!("shard {shard}: {frames} in {}", job.out.display()));
+                return Ok(ExitCode::SUCCESS);
+            }
+            let job = args.into_job()?;
             let terminal = terminal(signals.clone());
             tell_config(&terminal, &job.picture);
             let summary = job::render(&job, &terminal);
             terminal.finish();
-            let summary = summary?;
-            terminal.detail(&rays(&summary.rays));
-            let stopped = if summary.cancelled { "stopped: " } else { "" };
-            let films = match summary.films {
-                0 => String::new(),
-                films => format!(", {}", count(films as u64, "film")),
-            };
-            let kept = match summary.kept {
-                0 => String::new(),
-                kept => format!(" ({kept} of them were there)"),
-            };
-            terminal.say(&format!(
-                "{stopped}{}{kept}{} in {}; games: {} whole, {} in part, {} skipped",
-                count(summary.frames, "frame"),
-                films,
-                job.out.display(),
-                summary.rendered,
-                summary.partial,
-                summary.skipped,
-            ));
-            Ok(match signals.came().filter(|_| summary.cancelled) {
-                Some(number) => ExitCode::from(128 + number),
-                None => whole(summary.partial + summary.skipped == 0),
-            })
+            Ok(rendered(&job, &summary?, &terminal, &signals))
+        }
+        Command::Plan(args) => {
+            let arguments = cli::arguments_to_keep()?;
+            let (output, shards) = (args.output.clone(), args.shards);
+            let job = args.into_job()?;
+            let terminal = terminal(Signals::default());
+            tell_config(&terminal, &job.picture);
+            let planned = job::plan(&job, arguments, &output, shards, &terminal)?;
+            terminal.say(&cli::table::plan(&planned));
+            let all: Vec<usize> = (0..planned.shards).collect();
+            writeln!(io::stdout(), "{}", cli::table::array(&all))?;
+            Ok(ExitCode::SUCCESS)
+        }
+        Command::Verify(args) => {
+            let plan = open_plan(&args.plan)?;
+            let job = cli::planned_job(&plan, &args.threads)?;
+            let terminal = terminal(Signals::default());
+            let verdict = job::verify(&plan, &job, &terminal);
+            terminal.finish();
+            verified(&verdict?, &job, &terminal)
+        }
+        Command::Merge(args) => {
+            let plan = open_plan(&args.plan)?;
+            let job = cli::planned_job(&plan, &args.threads)?;
+            let signals = Signals::watch().context("signals cannot be watched")?;
+            let terminal = terminal(signals.clone());
+            let merged = job::merge(&plan, &job, &terminal);
+            terminal.finish();
+            match merged? {
+                Merged::Incomplete(verdict) => verified(&verdict, &job, &terminal),
+                Merged::Done(summary) => Ok(rendered(&job, &summary, &terminal, &signals)),
+            }
         }
         Command::Diagram(args) => diagram(&args.into_job()?, &terminal(Signals::default())),
         Command::Export(args) => {
@@ -115,6 +143,67 @@ fn run() -> anyhow::Result<ExitCode> {
             }
         }
     }
+}
+
+/// Reads a plan, and goes where its paths begin.
+fn open_plan(path: &Path) -> anyhow::Result<Plan> {
+    let plan = Plan::read(path).map_err(JobError::from)?;
+    let folder = plan.folder(path);
+    if !folder.as_os_str().is_empty() {
+        let what = "is where the paths of the plan begin, and cannot be entered";
+        env::set_current_dir(&folder).with_context(|| format!("{}: {what}", folder.display()))?;
+    }
+    Ok(plan)
+}
+
+/// Tells what was rendered.
+fn rendered(
+    job: &RenderJob,
+    summary: &Summary,
+    terminal: &Terminal,
+    signals: &Signals,
+) -> ExitCode {
+    terminal.detail(&rays(&summary.rays));
+    let stopped = if summary.cancelled { "stopped: " } else { "" };
+    let films = match summary.films {
+        0 => String::new(),
+        films => format!(", {}", count(films as u64, "film")),
+    };
+    terminal.say(&format!(
+        "{stopped}{}{films} in {}; games: {} whole, {} in part, {} skipped",
+        frames_of(summary.frames, summary.kept),
+        job.out.display(),
+        summary.rendered,
+        summary.partial,
+        summary.skipped,
+    ));
+    match signals.came().filter(|_| summary.cancelled) {
+        Some(number) => ExitCode::from(128 + number),
+        None => whole(summary.partial + summary.skipped == 0),
+    }
+}
+
+/// So many frames, of which some were kept.
+fn frames_of(frames: u64, kept: u64) -> String {
+    let frames = count(frames, "frame");
+    if kept > 0 { format!("{frames} ({kept} of them were there)") } else { frames }
+}
+
+/// Tells what pictures of a plan are missing.
+fn verified(verdict: &Verdict, job: &RenderJob, terminal: &Terminal) -> anyhow::Result<ExitCode> {
+    let (frames, out) = (count(verdict.frames, "frame"), job.out.display());
+    if verdict.faults.is_empty() {
+        terminal.say(&format!("all is there: {frames} in {out}"));
+        return Ok(ExitCode::SUCCESS);
+    }
+    writeln!(io::stdout(), "{}", cli::table::verdict(verdict))?;
+    let shards = verdict.shards().len() as u64;
+    terminal.say(&format!(
+        "{} of {frames} in {out} missing or broken, in {}",
+        verdict.bad(),
+        count(shards, "shard")
+    ));
+    Ok(ExitCode::from(INCOMPLETE))
 }
 
 fn diagram(job: &DiagramJob, terminal: &Terminal) -> anyhow::Result<ExitCode> {

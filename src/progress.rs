@@ -90,8 +90,7 @@ impl Progress for Terminal {
     fn begin(&self, frames: u64) {
         self.signals.take_over();
         self.bar.set_length(frames);
-        self.bar.reset_elapsed();
-        self.bar.reset_eta();
+        self.bar.reset();
     }
 
     fn game(&self, name: &str) {

@@ -1,5 +1,7 @@
 //! Runs over what earlier runs have left: whatever happened to those, the outcome is that of one run.
 
+mod trees;
+
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,6 +10,7 @@ use std::time::{Duration, SystemTime};
 
 use assert_cmd::Command;
 use tempfile::TempDir;
+use trees::tree;
 
 /// Two games that begin alike, one in part, and one that cannot be shown.
 const GAMES: &str = "[White \"A\"]\n[Black \"B\"]\n\n1. e4 e5 2. Nf3 (2. Bc4 Nc6) Nc6 3. Bb5 a6 *\n\n\
@@ -37,24 +40,6 @@ fn done(folder: &Path, parts: &[&[&str]]) -> String {
     let (code, said) = run(folder, parts);
     assert_eq!(code, 3, "{said}");
     said
-}
-
-/// All files below `folder`, by their paths in it.
-fn tree(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
-    let mut found = BTreeMap::new();
-    let mut open = vec![folder.to_owned()];
-    while let Some(next) = open.pop() {
-        for entry in fs::read_dir(next).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() {
-                open.push(path);
-            } else {
-                let name = path.strip_prefix(folder).unwrap().to_owned();
-                found.insert(name, fs::read(path).unwrap());
-            }
-        }
-    }
-    found
 }
 
 fn out(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {

@@ -14,21 +14,25 @@ mod wanted;
 use std::path::{Path, PathBuf};
 
 use anyhow::bail;
-use clap::{Args, ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
+use clap::error::ErrorKind;
+use clap::parser::ValueSource;
+use clap::{
+    ArgMatches, Args, ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum,
+};
 use lightsquare::config::{Config, Look, Shading};
 use lightsquare::game::{Letters, Moment};
 use lightsquare::job::{
-    BenchJob, DiagramJob, ExportJob, InspectJob, Listing, PictureSettings, RenderJob,
+    BenchJob, DiagramJob, ExportJob, InspectJob, Listing, PictureSettings, Plan, RenderJob,
 };
 use lightsquare::output::{FORMATS, PictureFormat};
 
 use crate::progress::{ProgressMode, Verbosity};
 use film::FilmArgs;
 use marks::DrawnArgs;
-use picture::PictureArgs;
+use picture::{PictureArgs, ThreadsArgs};
 use print::PrintArgs;
 use subject::SubjectArgs;
-use values::{every, plies, runs, threads};
+use values::{every, plies, runs, shards, threads};
 use wanted::WantedArgs;
 
 /// Reads chess games (PGN), replays them and ray-traces them into pictures and films.
@@ -72,7 +76,9 @@ pub fn parse() -> Cli {
         (_, true) => ColorChoice::Never,
         _ => ColorChoice::Auto,
     };
-    let matches = Cli::command().color(choice).get_matches();
+    let mut command = Cli::command().color(choice);
+    let matches = command.get_matches_mut();
+    refuse_beside_plan(&mut command, &matches);
     let cli = Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
     match cli.messages.color {
         ColorMode::Auto => {}
@@ -80,6 +86,27 @@ pub fn parse() -> Cli {
         ColorMode::Never => anstream::ColorChoice::Never.write_global(),
     }
     cli
+}
+
+/// What may be said of a shard; its plan says all else.
+const BESIDE_PLAN: [&str; 7] = ["plan", "shard", "cpu", "quiet", "verbose", "color", "progress"];
+
+/// Refuses options of `render` that a plan has settled.
+fn refuse_beside_plan(command: &mut clap::Command, matches: &ArgMatches) {
+    let Some(("render", given)) = matches.subcommand() else { return };
+    let Some(render) = command.find_subcommand_mut("render") else { return };
+    let is_given = |id: &str| given.value_source(id) == Some(ValueSource::CommandLine);
+    let others = render.get_arguments().filter(|argument| {
+        let id = argument.get_id().as_str();
+        !BESIDE_PLAN.contains(&id) && !matches!(id, "help" | "version") && is_given(id)
+    });
+    let other = others.map(ToString::to_string).next().filter(|_| is_given("plan"));
+    if let Some(other) = other {
+        let message = format!(
+            "the argument '{other}' cannot be used with '--plan <FILE>', which says all but --cpu"
+        );
+        render.error(ErrorKind::ArgumentConflict, message).exit();
+    }
 }
 
 /// How much is said, and how.
@@ -112,6 +139,15 @@ pub enum Command {
     /// Render games, each into a folder of numbered pictures, films, or both
     #[command(after_help = format!("{RENDER_EXAMPLES}\n\n{}", wanted::EXAMPLES))]
     Render(RenderArgs),
+    /// Cut the rendering of games into shards, for many machines
+    #[command(after_help = format!("{PLAN_EXAMPLES}\n\n{}", wanted::EXAMPLES))]
+    Plan(PlanArgs),
+    /// Say which pictures of a plan are missing or broken
+    #[command(after_help = VERIFY_EXAMPLES)]
+    Verify(PlannedArgs),
+    /// Make films and reports of a plan's pictures, once all are there
+    #[command(after_help = MERGE_EXAMPLES)]
+    Merge(PlannedArgs),
     /// Render one position
     #[command(after_help = DIAGRAM_EXAMPLES)]
     Diagram(DiagramArgs),
@@ -134,9 +170,37 @@ Examples:
   lightsquare render games/opera-1858.pgn --size 720x720 --film gif --film mp4 --animate
   lightsquare render games/opera-1858.pgn --from 12w --to end --animate --orbit 90
   curl -s https://example.org/games.pgn | lightsquare render - --select 1:3,10
+  lightsquare render --plan plan.jsonl --shard 7
 
 Exit codes: 0 all done; 1 failed; 2 wrong usage; 3 done, but some game was not rendered whole
 (report.jsonl says which); 130 and 143 after Ctrl-C and SIGTERM.";
+
+const PLAN_EXAMPLES: &str = "\
+Examples:
+  lightsquare plan base.pgn --player Kasparov --animate --film mp4 --shards 40 -o plan.jsonl
+  lightsquare render --plan plan.jsonl --shard 0     # and 1, 2, … 39, on any machines, in any order
+  lightsquare verify plan.jsonl                      # what is missing or broken
+  lightsquare merge plan.jsonl                       # films and reports
+
+The standard output says which tasks to start: --array=0-39, as Slurm's sbatch takes it. Paths in the plan begin
+where they began for `plan`, seen from the plan's own folder: keep both where all machines find them.
+cluster/ has scripts for Slurm, a template for Open Job Description and a line for GNU parallel.";
+
+const VERIFY_EXAMPLES: &str = "\
+Example:
+  lightsquare verify plan.jsonl || sbatch $(lightsquare verify plan.jsonl | head -1) array.sh
+
+The first line names the shards to send again, as Slurm's sbatch takes them: --array=2,5-7. The others, with tabs
+between: shard, folder, numbers of pictures, missing or broken.
+
+Exit codes: 0 all pictures are there and whole; 1 failed; 2 wrong usage; 3 some are not.";
+
+const MERGE_EXAMPLES: &str = "\
+Example:
+  lightsquare merge plan.jsonl
+
+Exit codes: 0 all done; 1 failed; 2 wrong usage; 3 pictures are missing, and nothing was written (the standard output
+says which, as verify does), or some game was not rendered whole (report.jsonl says which).";
 
 const DIAGRAM_EXAMPLES: &str = "\
 Examples:
@@ -170,14 +234,12 @@ Examples:
   lightsquare bench --cpu 2 --runs 7 --json
   lightsquare bench --plies 0";
 
+/// What is rendered of which games, and how.
 #[derive(Args)]
-pub struct RenderArgs {
+pub struct GamesArgs {
     /// Files of games in PGN, packed ones (zstd, gzip, bzip2) too; - is the standard input
     #[arg(required_unless_present = "print_config", value_name = "PGN")]
     inputs: Vec<PathBuf>,
-    /// Folder for the pictures
-    #[arg(short, long, value_name = "DIR", default_value = "out")]
-    out: PathBuf,
     /// Letters of the pieces: english, german, french, czech, …; auto finds those of a whole game
     #[arg(long, value_name = "LANGUAGE", default_value = "auto")]
     letters: Letters,
@@ -199,12 +261,6 @@ pub struct RenderArgs {
         conflicts_with_all = ["timed", "title", "result", "frames", "variations"]
     )]
     every: usize,
-    /// Give up rather than replace pictures of other settings or another game
-    #[arg(long)]
-    no_replace: bool,
-    /// Say how many games and frames there are, and about how many bytes and how long they will take; render nothing
-    #[arg(long)]
-    pub estimate: bool,
     /// Render variations too, each in a folder of its own within its game's, named by its first move
     #[arg(long, conflicts_with = "frames")]
     variations: bool,
@@ -214,6 +270,53 @@ pub struct RenderArgs {
     film: FilmArgs,
     #[command(flatten)]
     picture: PictureArgs,
+}
+
+#[derive(Args)]
+#[command(mut_arg("inputs", |inputs| inputs.required_unless_present_any(["print_config", "plan"])))]
+pub struct RenderArgs {
+    #[command(flatten)]
+    games: GamesArgs,
+    /// Folder for the pictures
+    #[arg(short, long, value_name = "DIR", default_value = "out")]
+    out: PathBuf,
+    /// Give up rather than replace pictures of other settings or another game
+    #[arg(long)]
+    no_replace: bool,
+    /// Say how many games and frames there are, and about how many bytes and how long they will take; render nothing
+    #[arg(long)]
+    pub estimate: bool,
+    /// Render a shard of a plan, which says all else
+    #[arg(long, value_name = "FILE", help_heading = "Many machines")]
+    pub plan: Option<PathBuf>,
+    /// Which one, counted from 0 [default: SLURM_ARRAY_TASK_ID of the environment]
+    #[arg(long, value_name = "N", help_heading = "Many machines", requires = "plan")]
+    shard: Option<usize>,
+}
+
+#[derive(Args)]
+pub struct PlanArgs {
+    #[command(flatten)]
+    games: GamesArgs,
+    /// Folder for the pictures, where all machines find it
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    out: PathBuf,
+    /// The plan's file
+    #[arg(short, long, value_name = "FILE", default_value = "plan.jsonl")]
+    pub output: PathBuf,
+    /// How many shards, from 1 to 1000 [default: as many as have some minutes of work each]
+    #[arg(long, value_name = "N", value_parser = shards)]
+    pub shards: Option<usize>,
+}
+
+/// A plan that was made.
+#[derive(Args)]
+pub struct PlannedArgs {
+    /// The plan's file
+    #[arg(value_name = "PLAN")]
+    pub plan: PathBuf,
+    #[command(flatten)]
+    pub threads: ThreadsArgs,
 }
 
 #[derive(Args)]
@@ -300,9 +403,9 @@ impl MessageArgs {
     }
 }
 
-impl RenderArgs {
-    pub fn into_job(self) -> anyhow::Result<RenderJob> {
-        if self.out == Path::new("-") {
+impl GamesArgs {
+    fn into_job(self, out: PathBuf, refuses_old: bool) -> anyhow::Result<RenderJob> {
+        if out == Path::new("-") {
             bail!(UsageError("--out: expected a folder, found `-`".to_owned()));
         }
         let picture = self.settings()?;
@@ -310,7 +413,7 @@ impl RenderArgs {
             names: self.film.names(&picture.config)?,
             films: self.film.films(&picture.config)?,
             inputs: self.inputs,
-            out: self.out,
+            out,
             wanted: self.wanted.into_wanted()?,
             letters: self.letters,
             from: self.at.unwrap_or(self.from),
@@ -319,7 +422,7 @@ impl RenderArgs {
             showing: self.film.showing(),
             frames: self.film.frames,
             every: self.every,
-            refuses_old: self.no_replace,
+            refuses_old,
             picture,
         })
     }
@@ -328,6 +431,70 @@ impl RenderArgs {
     fn settings(&self) -> anyhow::Result<PictureSettings> {
         self.picture.settings_for(self.film.preset(), Look::default())
     }
+}
+
+impl RenderArgs {
+    pub fn into_job(self) -> anyhow::Result<RenderJob> {
+        self.games.into_job(self.out, self.no_replace)
+    }
+
+    /// The shard of `plan` that is asked for, and the threads that are to render it.
+    pub fn shard(&self, plan: &Plan) -> Result<(usize, &ThreadsArgs), UsageError> {
+        let of_array = || match std::env::var(TASK) {
+            Ok(text) => text.trim().parse().map_err(|_| {
+                UsageError(format!("{TASK}: expected a shard's number, found `{text}`"))
+            }),
+            Err(_) => {
+                let message = format!("--shard: expected a shard's number, and there is no {TASK}");
+                Err(UsageError(message))
+            }
+        };
+        let shard = self.shard.map_or_else(of_array, Ok)?;
+        plan.shard(shard).map_err(|error| UsageError(error.to_string()))?;
+        Ok((shard, &self.games.picture.threads))
+    }
+}
+
+/// Where Slurm tells a task of an array its number.
+const TASK: &str = "SLURM_ARRAY_TASK_ID";
+
+impl PlanArgs {
+    pub fn into_job(self) -> anyhow::Result<RenderJob> {
+        if self.output == Path::new("-") {
+            bail!(UsageError("--output: expected a file, found `-`".to_owned()));
+        }
+        self.games.into_job(self.out, false)
+    }
+}
+
+/// The job that the arguments of a plan stand for, as this machine has it, with as many threads as are asked for here.
+///
+/// # Errors
+/// Arguments of no plan, settings that cannot be read.
+pub fn planned_job(plan: &Plan, threads: &ThreadsArgs) -> anyhow::Result<RenderJob> {
+    let given = ["lightsquare"].into_iter().chain(plan.arguments());
+    let given = Cli::try_parse_from(given).ok().map(|cli| cli.command);
+    let Some(Command::Plan(args)) = given else {
+        bail!("{}: its arguments are those of no plan", plan.name);
+    };
+    let mut job = args.into_job()?;
+    job.picture.threads = threads.cpu.or(job.picture.threads);
+    Ok(job)
+}
+
+/// The arguments that were given, for a plan to keep.
+///
+/// # Errors
+/// When one of them is no text.
+pub fn arguments_to_keep() -> Result<Vec<String>, UsageError> {
+    let given = std::env::args_os().skip(1);
+    let text = |argument: std::ffi::OsString| {
+        argument.into_string().map_err(|argument| {
+            let argument = argument.to_string_lossy().into_owned();
+            UsageError(format!("`{argument}`: cannot be written into a plan, expected UTF-8"))
+        })
+    };
+    given.map(text).collect()
 }
 
 impl DiagramArgs {
@@ -382,7 +549,8 @@ impl Command {
     /// The settings in force, where a command is asked to print them and do nothing else.
     pub fn config_to_print(&self) -> anyhow::Result<Option<Config>> {
         let settings = match self {
-            Command::Render(args) if args.picture.print_config => args.settings()?,
+            Command::Render(args) if args.games.picture.print_config => args.games.settings()?,
+            Command::Plan(args) if args.games.picture.print_config => args.games.settings()?,
             Command::Export(args) if args.picture.print_config => {
                 args.picture.settings(Look::Thesis)?
             }
@@ -400,7 +568,8 @@ impl InspectArgs {
         let inputs = self.inputs.iter().map(|input| input.as_os_str());
         let given = ["render".as_ref(), "--".as_ref()].into_iter().chain(inputs);
         let render = RenderArgs::from_arg_matches(&command.try_get_matches_from(given)?)?;
-        RenderArgs { wanted: self.wanted, letters: self.letters, ..render }.into_job()
+        let games = GamesArgs { wanted: self.wanted, letters: self.letters, ..render.games };
+        RenderArgs { games, ..render }.into_job()
     }
 
     pub fn into_job(self) -> Result<InspectJob, UsageError> {

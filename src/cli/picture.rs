@@ -38,9 +38,8 @@ pub struct PictureArgs {
     /// Rays along one side of a pixel's grid, from 1 to 32 [default: that of the quality]
     #[arg(long, value_name = "N", value_parser = rays)]
     ssrays: Option<u32>,
-    /// Threads, from 1 to 1024 [default: one a core]
-    #[arg(long, value_name = "N", value_parser = threads)]
-    cpu: Option<usize>,
+    #[command(flatten)]
+    pub threads: ThreadsArgs,
     /// The chessmen: staunton, thesis, or a folder with a set of one's own
     #[arg(long, value_name = "NAME|DIR", default_value = "staunton", value_parser = SetName::parse)]
     set: SetName,
@@ -88,6 +87,14 @@ pub struct PictureArgs {
     /// Print the settings that are in force as a config.ini, and do nothing else
     #[arg(long)]
     pub print_config: bool,
+}
+
+/// How many hands work.
+#[derive(Args)]
+pub struct ThreadsArgs {
+    /// Threads, from 1 to 1024 [default: one a core]
+    #[arg(long, value_name = "N", value_parser = threads)]
+    pub cpu: Option<usize>,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -200,7 +207,7 @@ impl PictureArgs {
             (config.parts.background, config.parts.table) = (Some(None), Some(None));
         }
         let set = self.set.clone();
-        Ok(PictureSettings { config, config_file, set, threads: self.cpu })
+        Ok(PictureSettings { config, config_file, set, threads: self.threads.cpu })
     }
 }
 

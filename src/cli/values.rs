@@ -4,6 +4,7 @@ use std::ops::RangeInclusive;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use lightsquare::config::{MAX_RAYS, MAX_SIDE};
+use lightsquare::job::MOST_SHARDS;
 use lightsquare::notation::Placement;
 use lightsquare::timeline::Pause;
 
@@ -60,6 +61,10 @@ pub fn runs(text: &str) -> Result<usize, String> {
 
 pub fn plies(text: &str) -> Result<usize, String> {
     whole_number(text, 0, 1000)
+}
+
+pub fn shards(text: &str) -> Result<usize, String> {
+    whole_number(text, 1, MOST_SHARDS)
 }
 
 pub fn every(text: &str) -> Result<usize, String> {

@@ -1,6 +1,6 @@
 //! Which games of a file, and which positions of a game.
 
-use std::ops::RangeInclusive;
+use std::ops::{Range, RangeInclusive};
 use std::str::FromStr;
 
 use shakmaty::Color;
@@ -19,6 +19,20 @@ pub struct ParseSelectionError {
 }
 
 impl Selection {
+    /// Every game.
+    pub fn all() -> Selection {
+        Selection(vec![1..=usize::MAX])
+    }
+
+    /// Those of its numbers that lie within `range`, if there are any.
+    pub fn between(&self, range: Range<usize>) -> Option<Selection> {
+        let last = range.end.checked_sub(1)?;
+        let parts =
+            self.0.iter().map(|part| *part.start().max(&range.start)..=*part.end().min(&last));
+        let parts: Vec<_> = parts.filter(|part| !part.is_empty()).collect();
+        (!parts.is_empty()).then_some(Selection(parts))
+    }
+
     /// Whether game `number` is selected.
     pub fn contains(&self, number: usize) -> bool {
         self.0.iter().any(|range| range.contains(&number))
@@ -137,6 +151,22 @@ mod tests {
         let selection: Selection = "1:3,10, 12-13".parse().unwrap();
         let selected: Vec<usize> = (0..20).filter(|n| selection.contains(*n)).collect();
         assert_eq!(selected, [1, 2, 3, 10, 12, 13]);
+    }
+
+    #[test]
+    fn a_selection_can_be_narrowed() {
+        let selection: Selection = "1:3,10,12-13".parse().unwrap();
+        for (range, expected) in [
+            (2..13, Some(vec![2, 3, 10, 12])),
+            (0..usize::MAX, Some(vec![1, 2, 3, 10, 12, 13])),
+            (4..10, None),
+            (0..0, None),
+        ] {
+            let narrowed = selection.between(range.clone());
+            let numbers = |s: Selection| (0..20).filter(|n| s.contains(*n)).collect::<Vec<_>>();
+            assert_eq!(narrowed.map(numbers), expected, "{range:?}");
+        }
+        assert_eq!(Selection::all().between(5..8).unwrap().highest(), 7);
     }
 
     #[test]

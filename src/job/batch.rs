@@ -16,6 +16,8 @@ use crate::timeline::{Script, Timeline};
 /// A file of games, and what of it is to be rendered. It is read twice: to see what there is, before the first picture, and
 /// again game by game, so that it may be of any length.
 pub struct Batch {
+    /// Which of the job's files it is, counted from 0.
+    pub file: usize,
     pub input: Input,
     /// Where its pictures go, within the folder of all output.
     pub folder: PathBuf,
@@ -132,20 +134,19 @@ fn without_endings(name: &str) -> &str {
 }
 
 impl Batch {
-    /// Sees what `job` wants of `input`, for pictures in `folder`, and tells what could not be read. There may be nothing;
-    /// `room` games are taken at most.
+    /// Sees what `job` wants of its file, and tells what could not be read. There may be nothing; as many games are taken at
+    /// most as the batch has now.
     ///
     /// # Errors
     /// Input that cannot be read, frames or a camera's path that a game does not have.
     pub fn survey(
+        self,
         job: &RenderJob,
         script: &Script,
-        input: Input,
-        folder: PathBuf,
-        room: usize,
         progress: &dyn Progress,
     ) -> Result<Batch, JobError> {
-        let batch = Batch { input, folder, games: room, frames: 0, seen: 0 };
+        let room = self.games;
+        let batch = self;
         let file = batch.input.name.clone();
         let mut entries = batch.entries(job, script)?;
         let (mut games, mut frames) = (0, 0);

@@ -9,7 +9,6 @@ use super::run::RenderJob;
 use super::studio::Studio;
 use super::{JobError, Progress};
 use crate::game::Game;
-use crate::output::{FrameNames, PictureFormat};
 use crate::timeline::{Script, Timeline};
 
 /// What there is to be rendered, and what that takes.
@@ -20,6 +19,9 @@ pub struct Estimate {
     /// Of pictures; of films it is not known.
     pub bytes: f64,
     pub seconds: f64,
+    /// Seconds of a frame that is rendered whole, and of one that follows another.
+    pub whole_seconds: f64,
+    pub other_seconds: f64,
     pub threads: usize,
 }
 
@@ -46,14 +48,21 @@ struct Sample {
 /// # Errors
 /// As for rendering, as far as they show before the first picture.
 pub fn estimate(job: &RenderJob, progress: &dyn Progress) -> Result<Estimate, JobError> {
-    let batches = survey(job, progress)?;
+    measure(job, &survey(job, progress)?)
+}
+
+/// Measures a few frames of what is wanted of files that were looked through.
+///
+/// # Errors
+/// As for [`estimate`].
+pub fn measure(job: &RenderJob, batches: &[Batch]) -> Result<Estimate, JobError> {
     let games = batches.iter().map(|batch| batch.games).sum();
     let frames = batches.iter().map(|batch| batch.frames).sum();
     let pool = job.picture.pool()?;
     let mut studio = Studio::new(&job.picture, job.showing.reach(&job.picture.config))?;
     let script = job.showing.script(&job.picture.config, studio.bodies().clone());
     let mut samples = Vec::new();
-    for Entry { game, part, .. } in sampled(&batches, games, job, &script)? {
+    for Entry { game, part, .. } in sampled(batches, games, job, &script)? {
         if let Some(part) = &part {
             samples.push(pool.install(|| sample(job, &script, &mut studio, &game, part))?);
         }
@@ -71,6 +80,8 @@ pub fn estimate(job: &RenderJob, progress: &dyn Progress) -> Result<Estimate, Jo
         frames,
         bytes: if job.names.is_some() { bytes / encoded * frames as f64 } else { 0.0 },
         seconds: first * whole + (frames as f64 - first) * other,
+        whole_seconds: whole,
+        other_seconds: other,
         threads: pool.current_num_threads(),
     })
 }
@@ -111,7 +122,6 @@ fn sample(
         return Ok(sample);
     };
     let captions = GameCaptions::new(game, job.picture.config.captions);
-    let format = job.names.as_ref().map_or(PictureFormat::Png, FrameNames::format);
     let begun = Instant::now();
     let mut frames = part.frames().map(|(index, _)| index).skip(part.count() / 2);
     while let Some(index) = frames.next() {
@@ -120,7 +130,7 @@ fn sample(
         let coming = frames.clone().map(|index| timeline.frame(index));
         let picture = studio.picture(&frame, captions.of(&frame).as_ref(), coming);
         if job.names.is_some() {
-            sample.bytes += picture.bytes(format).map_err(JobError::Write)?;
+            sample.bytes += picture.bytes(job.format()).map_err(JobError::Write)?;
         }
         sample.count += 1;
         if sample.count == 1 {

@@ -12,7 +12,7 @@ use crate::scene::Reach;
 use crate::timeline::Frame;
 
 /// The version of the pictures. It goes up whenever the same settings and frame give other bytes than before.
-const PICTURES: u32 = 1;
+pub const PICTURES: u32 = 1;
 
 /// How many letters a fingerprint has, four bits each.
 const LETTERS: usize = 16;

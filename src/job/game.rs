@@ -1,41 +1,60 @@
 //! One line of play, a game's or a variation's, as pictures and films in a folder.
 
+use std::borrow::Cow;
 use std::collections::BTreeSet;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-
-use rayon::prelude::*;
 
 use super::JobError;
-use super::batch::{Part, VariationPart};
+use super::batch::{Batch, Entry, Part, VariationPart, game_folder};
 use super::captions::GameCaptions;
-use super::desk::{Desk, Sheet};
+use super::layout::{Layout, Planned};
+use super::plan::Sum;
 use super::reels::Reels;
 use super::report::{FrameRow, Manifest, tags, texts};
-use super::run::{Films, Run};
+use super::run::{Films, Run, Task};
 use super::shots::Shots;
 use super::studio::Studio;
 use crate::game::Game;
 use crate::notation::Color;
 use crate::output::{
-    Earlier, FINGERPRINT, FilmFormat, FrameNames, PictureFormat, RepeatedPicture, film_name,
-    is_whole, manifest_name, prepare_inside, remove_temporaries, write_json,
+    Earlier, FilmFormat, FrameNames, film_name, is_whole, manifest_name, prepare_inside,
+    remove_temporaries, write_json,
 };
 use crate::text::shortened;
-use crate::timeline::Timeline;
+use crate::timeline::{Script, Timeline};
 
 /// What is rendered into one folder.
 pub struct Line<'a> {
     /// The file of the game, as messages show it.
     pub file: &'a str,
-    pub game: &'a Game,
+    /// The game, or what becomes of it where the variation is played.
+    pub game: Cow<'a, Game>,
     pub part: &'a Part,
     /// The game's folder, within that of all output.
-    pub folder: &'a Path,
+    pub folder: PathBuf,
     /// The variation's folder within it, where this is one.
     pub variation: Option<&'a Path>,
     /// All variations of the game that are rendered.
     pub variations: &'a [VariationPart],
+}
+
+impl Entry {
+    /// The lines of a game that are rendered: its own, and those of its variations.
+    pub fn lines<'a>(&'a self, batch: &'a Batch) -> impl Iterator<Item = Line<'a>> {
+        let Entry { game, part, variations } = self;
+        let folder = batch.folder.join(game_folder(game));
+        let line = move |game, part, variation| {
+            let (file, folder) = (batch.input.name.as_str(), folder.clone());
+            Line { file, game, part, folder, variation, variations }
+        };
+        let main = part.as_ref().map(|part| line(Cow::Borrowed(game), part, None));
+        let others = variations.iter().filter_map(move |VariationPart { path, folder, part }| {
+            let game = game.with_variation(path)?;
+            Some(line(Cow::Owned(game), part, Some(folder.as_path())))
+        });
+        main.into_iter().chain(others)
+    }
 }
 
 /// What came of it.
@@ -48,24 +67,19 @@ pub struct Rendered {
     /// Films that are there now.
     pub films: usize,
     pub is_cancelled: bool,
+    /// Of a shard's pictures that do not tell what they are.
+    pub pictures: Vec<Sum>,
 }
 
 impl Rendered {
     /// Adds what came of another line of the same game.
-    pub fn add(&mut self, other: &Rendered) {
+    pub fn add(&mut self, other: Rendered) {
+        self.pictures.extend(other.pictures);
         self.frames += other.frames;
         self.kept += other.kept;
         self.films += other.films;
         self.is_cancelled |= other.is_cancelled;
     }
-}
-
-/// A picture that is to be there in the end.
-struct Planned {
-    /// Its frame, counted as in the whole.
-    index: usize,
-    row: FrameRow,
-    is_kept: bool,
 }
 
 impl Line<'_> {
@@ -76,28 +90,25 @@ impl Line<'_> {
         studio: &mut Studio,
         rendered: &mut Rendered,
     ) -> Result<(), JobError> {
-        let Line { game, part, .. } = self;
         let (job, progress) = (run.job, run.progress);
         let (wanted, names) = (job.frames.as_ref(), job.names.as_ref());
-        let folder = prepare_inside(&job.out, &self.inside())?;
-        remove_temporaries(&folder)?;
-        let players = [Color::White, Color::Black].map(|color| shortened(game.player(color), 60));
-        progress.game(&players.join(" – "));
-        let timeline = self.timeline(run)?;
-        let captions = GameCaptions::new(game, job.picture.config.captions);
-
-        let mut planned = self.planned(run, &timeline, &captions);
-        let fingerprint = fingerprint(run, &planned);
+        remove_temporaries(&prepare_inside(&job.out, &self.inside())?)?;
+        progress.game(&self.players());
+        let mut layout = self.lay_out(run)?;
+        let folder = layout.folder.clone();
+        let fingerprint = fingerprint(run, &layout.planned);
         let earlier = Earlier::read(&folder, wanted);
-        let format = names.map_or(PictureFormat::Png, FrameNames::format);
-        run.pool.install(|| {
-            planned.par_iter_mut().for_each(|Planned { row, is_kept, .. }| {
-                *is_kept = row.file().is_some_and(|file| {
+        let format = job.format();
+        layout.keep(run, |row| {
+            row.file().is_some_and(|file| {
+                let is_believed = || {
                     earlier.has_frame(file, row.fingerprint())
                         && is_whole(&folder.join(file), format, row.fingerprint())
-                });
-            });
+                };
+                matches!(run.task, Task::Merge) || is_believed()
+            })
         });
+        let planned = &layout.planned;
         let film = |format: FilmFormat| film_name(format, wanted);
         let is_made = |format: &FilmFormat| earlier.has_film(&film(*format), &fingerprint);
         let (kept_films, films): (Vec<_>, Vec<_>) =
@@ -117,63 +128,26 @@ impl Line<'_> {
         earlier.remove_manifests()?;
 
         let films = Films { formats: films, ffmpeg: job.films.ffmpeg.clone() };
+        let Layout { timeline, captions, .. } = &layout;
         let shots = if films.formats.is_empty() {
             Shots::default()
         } else {
-            Shots::of(&job.picture, &timeline, &captions, part, run.script.film.fps)
+            Shots::of(&job.picture, timeline, captions, self.part, run.script.film.fps)
         };
         let mut reels = Reels::begin(&films, shots, progress, |format| folder.join(film(format)))?;
-        let desk = Desk::new(progress, run.pool, format);
-        let has_films = !films.formats.is_empty();
-        let is_traced = |planned: &&Planned| !planned.is_kept || has_films;
-        let (mut reached, mut filmed) = (0, 0);
-        run.pool.in_place_scope(|scope| {
-            for (place, Planned { index, row, is_kept }) in planned.iter().enumerate() {
-                rendered.is_cancelled = run.is_over();
-                if rendered.is_cancelled || desk.has_failed() {
-                    break;
-                }
-                let is_filmed = reels.wants(*index);
-                if !is_kept || is_filmed {
-                    let read = row.file().filter(|_| *is_kept && format.is_exact());
-                    let read = read.and_then(|file| image::open(folder.join(file)).ok());
-                    let picture = match read {
-                        Some(picture) => Arc::new(RepeatedPicture::new(picture)),
-                        None => {
-                            let coming = planned[place + 1..].iter().filter(is_traced);
-                            let coming = coming.map(|planned| timeline.frame(planned.index));
-                            let frame = timeline.frame(*index);
-                            let content = captions.of(&frame);
-                            run.pool.install(|| studio.picture(&frame, content.as_ref(), coming))
-                        }
-                    };
-                    if is_filmed && !reels.add(&picture) {
-                        break;
-                    }
-                    if let Some(file) = row.file().filter(|_| !is_kept) {
-                        let mut texts = texts(game, &timeline.frame(*index));
-                        texts.push((FINGERPRINT, row.fingerprint().to_owned()));
-                        desk.take(Sheet { path: folder.join(file), picture, texts }, scope);
-                    }
-                }
-                if *is_kept || row.file().is_none() {
-                    progress.frame_done();
-                }
-                filmed += u64::from(row.file().is_none());
-                reached += 1;
-            }
-        });
-        let (written, outcome) = desk.close();
-        let is_there = |(place, planned): &(usize, &Planned)| *place < reached || planned.is_kept;
+        let traced = layout.trace(run, studio, &mut reels, format);
         rendered.kept = planned.iter().filter(|planned| planned.is_kept).count() as u64;
-        rendered.frames = rendered.kept + written + filmed;
-        let (made, filming) = reels.end(rendered.is_cancelled || outcome.is_err());
+        rendered.frames = rendered.kept + traced.frames;
+        rendered.is_cancelled = traced.is_cancelled;
+        let (made, filming) = reels.end(traced.is_cancelled || traced.outcome.is_err());
         // A film that was waited for may have been told to stop.
         rendered.is_cancelled |= made.len() < films.formats.len() && run.is_over();
         let made: Vec<FilmFormat> = kept_films.into_iter().chain(made).collect();
         rendered.films = made.len();
-        outcome?;
-        if reached < planned.len() || made.len() < job.films.formats.len() {
+        traced.outcome?;
+        if traced.reached < planned.len() || made.len() < job.films.formats.len() {
+            let is_there =
+                |(place, planned): &(usize, &Planned)| *place < traced.reached || planned.is_kept;
             let rows = planned.iter().enumerate().filter(is_there);
             manifest(&made, rows.map(|(_, planned)| &planned.row).collect())?;
         }
@@ -186,9 +160,7 @@ impl Line<'_> {
         if !folder.is_dir() {
             return Ok(());
         }
-        let timeline = self.timeline(run)?;
-        let captions = GameCaptions::new(self.game, run.job.picture.config.captions);
-        let planned = self.planned(run, &timeline, &captions);
+        let Layout { planned, .. } = self.lay_out(run)?;
         let fingerprint = fingerprint(run, &planned);
         let earlier = Earlier::read(&folder, run.job.frames.as_ref());
         let mut ours = self.folders_within();
@@ -206,33 +178,54 @@ impl Line<'_> {
     }
 
     /// Its folder within that of all output.
-    fn inside(&self) -> PathBuf {
-        self.variation.map_or(self.folder.to_owned(), |name| self.folder.join(name))
+    pub fn inside(&self) -> PathBuf {
+        self.variation.map_or(self.folder.clone(), |name| self.folder.join(name))
     }
 
-    fn timeline<'a>(&self, run: &'a Run) -> Result<Timeline<'a>, JobError> {
+    /// Works out all its pictures; none is kept yet, and nothing is written.
+    pub fn lay_out<'a>(&'a self, run: &'a Run) -> Result<Layout<'a>, JobError> {
+        self.lay_out_part(run, 0..self.part.count())
+    }
+
+    /// Works out those of its pictures that come in such places, counted from 0.
+    pub fn lay_out_part<'a>(
+        &'a self,
+        run: &'a Run,
+        places: Range<usize>,
+    ) -> Result<Layout<'a>, JobError> {
+        let (game, job) = (self.game.as_ref(), run.job);
+        let timeline = self.timeline(&run.script)?;
+        let captions = GameCaptions::new(game, job.picture.config.captions);
+        let (names, format) = (job.names.as_ref(), job.names.as_ref().map(FrameNames::format));
+        let frames = self.part.frames().skip(places.start).take(places.len());
+        let planned = frames.map(|(index, number)| {
+            let frame = timeline.frame(index);
+            let content = captions.of(&frame);
+            let rest = (texts(game, &frame), format);
+            let fingerprint = run.fingerprints.picture(&frame, content.as_ref(), &rest);
+            let file = names.map(|names| names.name(number));
+            let row = FrameRow::new(file, fingerprint, game, &frame);
+            Planned { index, number, row, is_kept: false }
+        });
+        let planned = planned.collect();
+        let folder = job.out.join(self.inside());
+        Ok(Layout { game, folder, timeline, captions, planned })
+    }
+
+    /// All its frames.
+    pub fn timeline<'a>(&self, script: &'a Script) -> Result<Timeline<'a>, JobError> {
         let Part { first, last, .. } = *self.part;
-        Timeline::new(self.game, first, last, &run.script).map_err(|error| JobError::Path {
-            file: self.file.to_owned(),
-            game: self.game.number,
-            error,
+        let timeline = Timeline::new(&self.game, first, last, script);
+        timeline.map_err(|error| {
+            let (file, game) = (self.file.to_owned(), self.game.number);
+            JobError::Path { file, game, error }
         })
     }
 
-    /// All pictures of the line.
-    fn planned(&self, run: &Run, timeline: &Timeline, captions: &GameCaptions) -> Vec<Planned> {
-        let names = run.job.names.as_ref();
-        let format = names.map(FrameNames::format);
-        let planned = self.part.frames().map(|(index, number)| {
-            let frame = timeline.frame(index);
-            let content = captions.of(&frame);
-            let rest = (texts(self.game, &frame), format);
-            let fingerprint = run.fingerprints.picture(&frame, content.as_ref(), &rest);
-            let file = names.map(|names| names.name(number));
-            let row = FrameRow::new(file, fingerprint, self.game, &frame);
-            Planned { index, row, is_kept: false }
-        });
-        planned.collect()
+    /// Who plays, for the bar.
+    pub fn players(&self) -> String {
+        let players = [Color::White, Color::Black].map(|color| self.game.player(color));
+        players.map(|player| shortened(player, 60)).join(" – ")
     }
 
     fn manifest<'a>(
@@ -243,6 +236,7 @@ impl Line<'_> {
         frames: Vec<&'a FrameRow>,
     ) -> Manifest<'a> {
         let Line { file, game, variation, .. } = self;
+        let game = game.as_ref();
         let showing = &run.job.showing;
         Manifest {
             file,

@@ -6,6 +6,7 @@
 mod batch;
 mod bench;
 mod captions;
+mod crew;
 mod desk;
 mod diagram;
 mod estimate;
@@ -14,6 +15,8 @@ mod fingerprint;
 mod game;
 mod input;
 mod inspect;
+mod layout;
+mod plan;
 mod reels;
 mod render;
 mod report;
@@ -28,11 +31,16 @@ mod subject;
 mod wording;
 
 pub use bench::{BenchJob, GameMeasurement, Measurement, Measurements, bench};
+pub use crew::Summary;
 pub use diagram::{DiagramJob, DiagramSummary, Drawn, diagram};
 pub use estimate::{Estimate, estimate};
 pub use export::{ExportJob, export};
 pub use inspect::{InspectJob, Listing, inspect};
-pub use render::{Summary, render};
+pub use plan::{
+    Fault, MOST_SHARDS, Merged, Missing, Plan, PlanError, Planned, Verdict, merge, plan,
+    render_shard, verify,
+};
+pub use render::render;
 pub use run::{Films, RenderJob};
 pub use script::Showing;
 pub use settings::PictureSettings;
@@ -79,6 +87,8 @@ pub enum JobError {
     NoSuchFrames { file: String, game: usize, last: usize, wanted: String },
     #[error("{file}: game {game}: {error}")]
     Path { file: String, game: usize, error: PathError },
+    #[error(transparent)]
+    Plan(#[from] PlanError),
     #[error(transparent)]
     Lock(#[from] LockError),
     #[error(

@@ -72,6 +72,16 @@ impl<'a> Reels<'a> {
         Ok(reels)
     }
 
+    /// No films.
+    pub fn none(progress: &'a dyn Progress) -> Reels<'a> {
+        Reels { progress, reels: Vec::new(), begins: Vec::new().into_iter().peekable() }
+    }
+
+    /// Whether there are no films.
+    pub fn is_empty(&self) -> bool {
+        self.reels.is_empty()
+    }
+
     /// Whether films want the picture of a frame: if a shot begins with it. Frames are asked for in their order.
     pub fn wants(&mut self, frame: usize) -> bool {
         self.begins.next_if_eq(&frame).is_some()

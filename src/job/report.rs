@@ -6,10 +6,12 @@ use std::path::Path;
 use serde::Serialize;
 use serde_json::{Map, Value};
 
+use super::batch::Batch;
+use super::plan::Sum;
 use super::settings::SettingsRecord;
 use crate::game::{Game, Problem, Variation};
 use crate::notation::Color;
-use crate::output::{JsonLines, OutputError};
+use crate::output::{JsonLines, OutputError, remove_file};
 use crate::text::shortened;
 use crate::timeline::{Card, Film, Frame, Gaze};
 
@@ -36,10 +38,22 @@ pub struct Report {
 }
 
 impl Report {
-    /// Begins the report of the games in `folder`.
-    pub fn begin(folder: &Path) -> Result<Report, OutputError> {
-        let lines = JsonLines::begin(&folder.join("report.jsonl"))?;
+    /// Begins the report of the games in `folder`. An earlier one is removed: it tells of what is no more.
+    pub fn anew(folder: &Path) -> Result<Report, OutputError> {
+        let path = folder.join("report.jsonl");
+        remove_file(&path)?;
+        Report::begin(&path)
+    }
+
+    /// Begins a report in the file `path`.
+    pub fn begin(path: &Path) -> Result<Report, OutputError> {
+        let lines = JsonLines::begin(path)?;
         Ok(Report { lines, waiting: BTreeMap::new(), next: 0 })
+    }
+
+    /// How many lines it has.
+    pub fn lines(&self) -> usize {
+        self.next
     }
 
     /// Adds the line of the game at `place`, counted from 0.
@@ -64,6 +78,9 @@ impl Report {
 /// A game's line of `report.jsonl`.
 #[derive(Serialize)]
 pub struct ReportLine {
+    /// In the report of a shard.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    file: Option<String>,
     game: usize,
     line: usize,
     white: String,
@@ -74,12 +91,15 @@ pub struct ReportLine {
     plies: usize,
     /// Pictures that are there, or went into films.
     frames: u64,
-    /// The folder of the pictures, beside the report.
+    /// The folder of the pictures, beside the report; of a shard, in the folder of all output.
     folder: Option<String>,
     problems: Vec<Problem>,
     /// Those that were rendered with it.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     variations: Vec<VariationLine>,
+    /// In the report of a shard, those that do not tell what they are.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pictures: Vec<Sum>,
 }
 
 /// A variation in the line of its game.
@@ -114,6 +134,7 @@ impl VariationLine {
 impl ReportLine {
     pub fn new(game: &Game, status: Status, frames: u64, folder: Option<String>) -> ReportLine {
         ReportLine {
+            file: None,
             game: game.number,
             line: game.line,
             white: game.player(Color::White).to_owned(),
@@ -125,12 +146,20 @@ impl ReportLine {
             folder,
             problems: game.problems.clone(),
             variations: Vec::new(),
+            pictures: Vec::new(),
         }
     }
 
     /// This line with variations.
     pub fn with(self, variations: Vec<VariationLine>) -> ReportLine {
         ReportLine { variations, ..self }
+    }
+
+    /// This line in the report of a shard, of a game in `batch`.
+    pub fn of_shard(self, batch: &Batch, pictures: Vec<Sum>) -> ReportLine {
+        let file = Some(batch.input.name.clone());
+        let folder = self.folder.map(|name| batch.folder.join(name).to_string_lossy().into_owned());
+        ReportLine { file, folder, pictures, ..self }
     }
 }
 

@@ -7,10 +7,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use rayon::ThreadPool;
 
 use super::fingerprint::Fingerprints;
+use super::plan::{Shard, Sums};
 use super::settings::PictureSettings;
 use super::{Progress, Showing};
 use crate::game::{Letters, Moment, Wanted};
-use crate::output::{Ffmpeg, FilmFormat, FrameNames};
+use crate::output::{Ffmpeg, FilmFormat, FrameNames, PictureFormat};
 use crate::timeline::Script;
 
 /// Which games to render, how, and where to.
@@ -40,12 +41,36 @@ pub struct RenderJob {
     pub picture: PictureSettings,
 }
 
+impl RenderJob {
+    /// The format of its pictures, where there are any.
+    pub fn format(&self) -> PictureFormat {
+        self.names.as_ref().map_or(PictureFormat::Png, FrameNames::format)
+    }
+}
+
 /// What films are wanted of each game.
 #[derive(Clone, Debug, Default)]
 pub struct Films {
     pub formats: Vec<FilmFormat>,
     /// Who makes MP4; the encoder inside where there is none.
     pub ffmpeg: Option<Ffmpeg>,
+}
+
+/// What of a job is done.
+pub enum Task {
+    /// All that is not there yet.
+    Whole,
+    /// All but pictures: they are there, and as they should be.
+    Merge,
+    /// The pictures of a shard.
+    Shard(ShardTask),
+}
+
+/// A shard under way.
+pub struct ShardTask {
+    pub shard: Shard,
+    /// What an earlier run of the shard has told of its pictures.
+    pub sums: Sums,
 }
 
 /// A job under way.
@@ -55,6 +80,7 @@ pub struct Run<'a> {
     pub progress: &'a dyn Progress,
     pub pool: &'a ThreadPool,
     pub fingerprints: Fingerprints<'a>,
+    pub task: Task,
     /// Whether a game could not be rendered, so that others are not begun or gone on with.
     pub has_failed: AtomicBool,
 }

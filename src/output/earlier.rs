@@ -69,6 +69,11 @@ impl Earlier {
         self.files.get(file).and_then(Option::as_deref) == Some(fingerprint)
     }
 
+    /// Whether the picture `file` was made to be something else than what has that fingerprint.
+    pub fn has_other(&self, file: &str, fingerprint: &str) -> bool {
+        self.files.get(file).and_then(Option::as_deref).is_some_and(|known| known != fingerprint)
+    }
+
     /// Whether there is the film `file` of what has that fingerprint.
     pub fn has_film(&self, file: &str, fingerprint: &str) -> bool {
         let is_there = || {

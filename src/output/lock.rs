@@ -1,4 +1,4 @@
-//! One run at a time in a folder.
+//! One run at a time in a folder, or several that are parts of one.
 
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Read, Write};
@@ -33,16 +33,31 @@ pub enum LockError {
 }
 
 impl FolderLock {
-    /// Takes hold of `folder`, which is there.
+    /// Takes hold of `folder`, which is there, for this process alone.
     ///
     /// # Errors
     /// When another process has it, or the file cannot be made.
     pub fn take(folder: &Path) -> Result<FolderLock, LockError> {
+        FolderLock::hold(folder, File::try_lock)
+    }
+
+    /// Takes hold of `folder` as [`FolderLock::take`] does, together with others who share it.
+    ///
+    /// # Errors
+    /// As for [`FolderLock::take`].
+    pub fn share(folder: &Path) -> Result<FolderLock, LockError> {
+        FolderLock::hold(folder, File::try_lock_shared)
+    }
+
+    fn hold(
+        folder: &Path,
+        lock: fn(&File) -> Result<(), TryLockError>,
+    ) -> Result<FolderLock, LockError> {
         let path = folder.join(".lock");
         let failed = |error| OutputError { path: path.clone(), error };
         loop {
             let mut file = open(&path).map_err(failed)?;
-            match file.try_lock() {
+            match lock(&file) {
                 Ok(()) => {}
                 Err(TryLockError::WouldBlock) => {
                     let mut text = String::new();
@@ -67,7 +82,9 @@ impl FolderLock {
 
 impl Drop for FolderLock {
     fn drop(&mut self) {
-        if self.file.as_ref().is_some_and(|file| is_at(file, &self.path)) {
+        // Whoever shares the folder still needs the file; the last one has it alone.
+        let is_last = |file: &File| file.try_lock().is_ok() && is_at(file, &self.path);
+        if self.file.as_ref().is_some_and(is_last) {
             // One that stays does not block.
             let _ = fs::remove_file(&self.path);
         }
@@ -110,6 +127,21 @@ mod tests {
         drop(held);
         assert!(fs::read_dir(folder.path()).unwrap().next().is_none());
         FolderLock::take(folder.path()).unwrap();
+    }
+
+    #[test]
+    fn those_who_share_a_folder_keep_others_out_until_the_last_one_leaves() {
+        let folder = tempfile::tempdir().unwrap();
+        let first = FolderLock::share(folder.path()).unwrap();
+        let second = FolderLock::share(folder.path()).unwrap();
+        for held in [first, second] {
+            assert!(FolderLock::take(folder.path()).is_err());
+            drop(held);
+        }
+        assert!(fs::read_dir(folder.path()).unwrap().next().is_none());
+        let alone = FolderLock::take(folder.path()).unwrap();
+        assert!(FolderLock::share(folder.path()).is_err());
+        drop(alone);
     }
 
     #[test]

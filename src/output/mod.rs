@@ -165,6 +165,14 @@ fn staged(path: &Path, content: Content) -> Result<Option<(NamedTempFile, PathBu
 }
 
 /// Removes a file, unless there is none.
+///
+/// # Errors
+/// When it cannot be removed.
+pub fn remove_file(path: &Path) -> Result<(), OutputError> {
+    remove_if_there(path).map_err(|error| OutputError { path: path.to_owned(), error })
+}
+
+/// Removes a file, unless there is none.
 fn remove_if_there(path: &Path) -> io::Result<()> {
     match fs::remove_file(path) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),

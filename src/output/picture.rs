@@ -62,6 +62,11 @@ impl PictureFormat {
         self != PictureFormat::Jpeg
     }
 
+    /// Whether a picture's file tells its own fingerprint, and each flipped bit of it is noticed.
+    pub fn is_sealed(self) -> bool {
+        self == PictureFormat::Png
+    }
+
     /// Whether it can say what is transparent.
     pub fn has_alpha(self) -> bool {
         matches!(self, PictureFormat::Png | PictureFormat::Tiff | PictureFormat::Webp)

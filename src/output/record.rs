@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 use tempfile::NamedTempFile;
 
-use super::{OutputError, remove_if_there, temporary, write_inside};
+use super::{OutputError, temporary, write_inside};
 
 /// Writes one value, indented for reading.
 ///
@@ -26,14 +26,13 @@ pub struct JsonLines {
 }
 
 impl JsonLines {
-    /// Begins the file `path`. One of that name is removed: it tells of what is no more.
+    /// Begins the file `path`. One of that name stays until this one is in its place.
     ///
     /// # Errors
     /// When it cannot be written.
     pub fn begin(path: &Path) -> Result<JsonLines, OutputError> {
         let path = path.to_owned();
-        let begun = remove_if_there(&path).and_then(|()| temporary(&path));
-        match begun {
+        match temporary(&path) {
             Ok(file) => Ok(JsonLines { path, out: BufWriter::new(file) }),
             Err(error) => Err(OutputError { path, error }),
         }

@@ -10,7 +10,7 @@ pub use pattern::{ParsePatternError, PositionPattern};
 pub use player::{Players, PlayersError};
 pub use tags::{ParseTagTestError, TagTest};
 
-use std::ops::RangeInclusive;
+use std::ops::{Range, RangeInclusive};
 use std::str::FromStr;
 
 use shakmaty::Position;
@@ -60,6 +60,13 @@ impl Wanted {
     /// The highest number that is asked for; where games are asked for by number, none follows it.
     pub fn highest_number(&self) -> Option<usize> {
         self.numbers.as_ref().map(Selection::highest)
+    }
+
+    /// Of all these those with such numbers, however many there are; `None` where no other number is asked for.
+    pub fn between(&self, range: Range<usize>) -> Option<Wanted> {
+        let all = Selection::all();
+        let numbers = self.numbers.as_ref().unwrap_or(&all).between(range)?;
+        Some(Wanted { numbers: Some(numbers), limit: None, ..self.clone() })
     }
 
     /// Whether [`Wanted::takes_game`] can say no.

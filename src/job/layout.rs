@@ -1,0 +1,119 @@
+//! What a line of play is to become: all its pictures, each with what it shows, and which of them are there.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use super::captions::GameCaptions;
+use super::desk::{Desk, Sheet};
+use super::reels::Reels;
+use super::report::{FrameRow, texts};
+use super::run::Run;
+use super::studio::Studio;
+use crate::game::Game;
+use crate::output::{FINGERPRINT, OutputError, PictureFormat, RepeatedPicture};
+use crate::timeline::Timeline;
+
+/// A line of play, laid out frame by frame.
+pub struct Layout<'a> {
+    pub game: &'a Game,
+    /// Where its pictures go.
+    pub folder: PathBuf,
+    pub timeline: Timeline<'a>,
+    pub captions: GameCaptions<'a>,
+    pub planned: Vec<Planned>,
+}
+
+/// A picture that is to be there in the end.
+pub struct Planned {
+    /// Its frame, counted as in the whole.
+    pub index: usize,
+    /// The one in its name.
+    pub number: usize,
+    pub row: FrameRow,
+    /// Whether it is there already.
+    pub is_kept: bool,
+}
+
+/// How far the tracing of a line came.
+pub struct Traced {
+    /// So many of its pictures, from the first on, were traced, kept or passed over.
+    pub reached: usize,
+    /// Pictures that were written, and those that went into films alone.
+    pub frames: u64,
+    pub is_cancelled: bool,
+    pub outcome: Result<(), OutputError>,
+}
+
+impl Layout<'_> {
+    /// Says of each picture whether it is kept.
+    pub fn keep(&mut self, run: &Run, is_there: impl Fn(&FrameRow) -> bool + Sync) {
+        run.pool.install(|| {
+            let planned = self.planned.par_iter_mut();
+            planned.for_each(|Planned { row, is_kept, .. }| *is_kept = is_there(row));
+        });
+    }
+
+    /// Traces the pictures that are not kept, or that films want.
+    pub fn trace(
+        &self,
+        run: &Run,
+        studio: &mut Studio,
+        reels: &mut Reels,
+        format: PictureFormat,
+    ) -> Traced {
+        let progress = run.progress;
+        let desk = Desk::new(progress, run.pool, format);
+        let is_traced = |planned: &&Planned| !planned.is_kept || !reels.is_empty();
+        let coming: Vec<usize> =
+            self.planned.iter().filter(is_traced).map(|planned| planned.index).collect();
+        let mut coming = &coming[..];
+        let (mut reached, mut filmed, mut is_cancelled) = (0, 0, false);
+        run.pool.in_place_scope(|scope| {
+            for Planned { index, row, is_kept, .. } in &self.planned {
+                is_cancelled = run.is_over();
+                if is_cancelled || desk.has_failed() {
+                    break;
+                }
+                coming = coming.strip_prefix(&[*index]).unwrap_or(coming);
+                let is_filmed = reels.wants(*index);
+                if !is_kept || is_filmed {
+                    let picture = self.kept(row, *is_kept, format).unwrap_or_else(|| {
+                        let frame = self.timeline.frame(*index);
+                        let content = self.captions.of(&frame);
+                        let coming = coming.iter().map(|index| self.timeline.frame(*index));
+                        run.pool.install(|| studio.picture(&frame, content.as_ref(), coming))
+                    });
+                    if is_filmed && !reels.add(&picture) {
+                        break;
+                    }
+                    if let Some(file) = row.file().filter(|_| !is_kept) {
+                        let mut texts = texts(self.game, &self.timeline.frame(*index));
+                        texts.push((FINGERPRINT, row.fingerprint().to_owned()));
+                        desk.take(Sheet { path: self.folder.join(file), picture, texts }, scope);
+                    }
+                }
+                if *is_kept || row.file().is_none() {
+                    progress.frame_done();
+                }
+                filmed += u64::from(row.file().is_none());
+                reached += 1;
+            }
+        });
+        let (written, outcome) = desk.close();
+        Traced { reached, frames: written + filmed, is_cancelled, outcome }
+    }
+
+    /// A picture that is kept, as its file has it, if that loses nothing.
+    fn kept(
+        &self,
+        row: &FrameRow,
+        is_kept: bool,
+        format: PictureFormat,
+    ) -> Option<Arc<RepeatedPicture>> {
+        let file = row.file().filter(|_| is_kept && format.is_exact())?;
+        let picture = image::open(self.folder.join(file)).ok()?;
+        Some(Arc::new(RepeatedPicture::new(picture)))
+    }
+}

@@ -1,0 +1,54 @@
+//! Whether a plan fits what it was made of.
+
+use std::io::ErrorKind;
+use std::path::PathBuf;
+
+use super::file::{Plan, PlanError};
+use super::make::{hashed, settings_of};
+use crate::job::JobError;
+use crate::job::batch::{Batch, folder_names};
+use crate::job::fingerprint::Fingerprints;
+use crate::job::input::Input;
+use crate::job::run::RenderJob;
+
+/// Makes sure that the games and settings are those of which a plan was made, where `job` is what the plan's arguments
+/// stand for.
+///
+/// # Errors
+/// When they are not.
+pub fn check(plan: &Plan, job: &RenderJob) -> Result<(), PlanError> {
+    for input in &plan.head.inputs {
+        let (name, shown) = (plan.name.clone(), input.path.clone());
+        match hashed(&PathBuf::from(&input.path)) {
+            Ok(found) if found == (input.bytes, input.sha256.clone()) => {}
+            Ok(_) => return Err(PlanError::Changed { name, input: shown }),
+            Err(error) if error.kind() == ErrorKind::NotFound => {
+                return Err(PlanError::Missing { name, input: shown });
+            }
+            Err(error) => return Err(PlanError::Io { name: shown, error }),
+        }
+    }
+    let reach = job.showing.reach(&job.picture.config);
+    if settings_of(&Fingerprints::new(&job.picture, reach)) != plan.head.settings {
+        return Err(PlanError::OtherSettings { name: plan.name.clone() });
+    }
+    Ok(())
+}
+
+/// The files that have games that are rendered, as they were seen when the plan was made.
+///
+/// # Errors
+/// When one cannot be read.
+pub fn batches(plan: &Plan, job: &RenderJob) -> Result<Vec<Batch>, JobError> {
+    let mut batches = Vec::new();
+    for ((file, input), folder) in
+        plan.head.inputs.iter().enumerate().zip(folder_names(&job.inputs))
+    {
+        if input.games > 0 {
+            let (games, frames) = (input.games, input.frames);
+            let (input, folder) = (Input::new(&job.inputs[file])?, folder.into());
+            batches.push(Batch { file, input, folder, games, frames, seen: 0 });
+        }
+    }
+    Ok(batches)
+}

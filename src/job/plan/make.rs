@@ -1,0 +1,233 @@
+//! From a job to a plan: what there is to do, what that takes, and where it is cut.
+
+use std::env;
+use std::fs::{self, File};
+use std::io;
+use std::path::{Component, Path, PathBuf};
+
+use sha2::{Digest, Sha256};
+
+use super::cut::{Cutter, Seam};
+use super::file::{Head, Place, Plan, PlanError, PlannedInput};
+use super::records::has_shards;
+use crate::job::batch::{Batch, Entry};
+use crate::job::estimate::measure;
+use crate::job::fingerprint::Fingerprints;
+use crate::job::render::{keep_out, survey};
+use crate::job::room::check_room;
+use crate::job::run::RenderJob;
+use crate::job::studio::bodies;
+use crate::job::{Estimate, JobError, Progress};
+use crate::output::{OutputError, prepare_file};
+use crate::text::shown;
+use crate::timeline::Script;
+
+/// As many tasks as Slurm's arrays have room for, with its usual settings.
+pub const MOST_SHARDS: usize = 1000;
+
+/// So many seconds of work a shard is to have, where nobody says how many there are to be.
+const SHARE: f64 = 300.0;
+
+/// What a plan came to.
+#[derive(Clone, Debug)]
+pub struct Planned {
+    pub shards: usize,
+    /// Frames of the smallest shard and of the largest one.
+    pub smallest: u64,
+    pub largest: u64,
+    /// Shards that begin within a line of play, and those of them that begin within a move.
+    pub within_lines: usize,
+    pub within_moves: usize,
+    /// What one machine would take for all.
+    pub estimate: Estimate,
+    /// What the cuts cost more than that, in seconds of one machine.
+    pub cost: f64,
+}
+
+/// Makes a plan of `job`, which `arguments` stand for, and writes it to `output`. Where nobody says how many `shards`,
+/// there are as many as have some minutes of work each, by a quick measurement.
+///
+/// # Errors
+/// As for rendering, as far as they show before the first picture; input that is no file; films without pictures.
+pub fn plan(
+    job: &RenderJob,
+    arguments: Vec<String>,
+    output: &Path,
+    shards: Option<usize>,
+    progress: &dyn Progress,
+) -> Result<Planned, JobError> {
+    if job.names.is_none() {
+        return Err(PlanError::FilmsAlone.into());
+    }
+    let is_file = |input: &&PathBuf| fs::metadata(input).is_ok_and(|data| !data.is_file());
+    let is_stream =
+        |input: &&PathBuf| *input == Path::new("-") || is_file(input) && !input.is_dir();
+    if let Some(stream) = job.inputs.iter().find(is_stream) {
+        return Err(PlanError::Stream(shown(stream)).into());
+    }
+    let place = |path: &Path| fs::canonicalize(path).ok();
+    let target = place(output);
+    if target.is_some() && job.inputs.iter().any(|input| place(input) == target) {
+        return Err(JobError::OutputIsInput { path: output.to_owned() });
+    }
+    if let Some(folder) = has_shards(&job.out) {
+        return Err(PlanError::NotMerged { folder }.into());
+    }
+    let batches = survey(job, progress)?;
+    batches.iter().try_for_each(|batch| keep_out(job, &job.out.join(&batch.folder)))?;
+    check_room(job, batches.iter().map(|batch| batch.frames).sum())?;
+    let estimate = measure(job, &batches)?;
+    let suits = (estimate.seconds / SHARE).ceil().clamp(1.0, MOST_SHARDS as f64) as usize;
+    let most = usize::try_from(estimate.frames).unwrap_or(usize::MAX).max(1);
+    let shards = shards.unwrap_or(suits.min(most));
+
+    let reach = job.showing.reach(&job.picture.config);
+    let settings = settings_of(&Fingerprints::new(&job.picture, reach));
+    let script = job.showing.script(&job.picture.config, bodies(&job.picture)?);
+    let mut inputs = job.inputs.iter().map(|path| input(path)).collect::<Result<Vec<_>, _>>()?;
+    for batch in &batches {
+        (inputs[batch.file].games, inputs[batch.file].frames) = (batch.games, batch.frames);
+    }
+    let Cuts { begins, seams, end } = cut(job, &batches, &script, estimate.frames, shards)?;
+    let failed = |error| OutputError { path: output.to_owned(), error };
+    prepare_file(output)?;
+    let folder = way(output).map_err(failed)?;
+    let folder = folder.to_str().ok_or_else(|| PlanError::Name(shown(&folder)))?.to_owned();
+    let head = Head::new(folder, arguments, settings, inputs, shards, end);
+    let plan = Plan::new(output, head, &begins).map_err(failed)?;
+    plan.write(output)?;
+
+    let sizes = || plan.shards.iter().map(|shard| shard.frames);
+    let count = |wanted: &[Seam]| seams.iter().filter(|seam| wanted.contains(seam)).count();
+    let within_lines = count(&[Seam::Position, Seam::Frame]);
+    let more = (estimate.whole_seconds - estimate.other_seconds).max(0.0);
+    Ok(Planned {
+        shards,
+        smallest: sizes().min().unwrap_or(0),
+        largest: sizes().max().unwrap_or(0),
+        within_lines,
+        within_moves: if job.showing.animate { count(&[Seam::Frame]) } else { 0 },
+        estimate,
+        cost: within_lines as f64 * more,
+    })
+}
+
+/// What stands in a plan for all settings of pictures.
+pub(super) fn settings_of(fingerprints: &Fingerprints) -> String {
+    fingerprints.of(&"plan")
+}
+
+fn input(path: &Path) -> Result<PlannedInput, JobError> {
+    let (bytes, sha256) = hashed(path)
+        .map_err(|error| PlanError::Io { name: shown(path), error })
+        .map_err(JobError::from)?;
+    let text = path.to_str().ok_or_else(|| PlanError::Name(shown(path)))?;
+    Ok(PlannedInput { path: text.to_owned(), bytes, sha256, games: 0, frames: 0 })
+}
+
+/// The number of bytes of a file, and their hash.
+pub(super) fn hashed(path: &Path) -> io::Result<(u64, String)> {
+    struct Hash(Sha256);
+    impl io::Write for Hash {
+        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+            self.0.update(bytes);
+            Ok(bytes.len())
+        }
+        fn flush(&mut self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+    let mut hash = Hash(Sha256::new());
+    let bytes = io::copy(&mut File::open(path)?, &mut hash)?;
+    let text = hash.0.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
+    Ok((bytes, text))
+}
+
+/// Where shards begin.
+#[derive(Default)]
+struct Cuts {
+    /// After how many frames of all, and in which place.
+    begins: Vec<(u64, Place)>,
+    /// What all but the first begin with.
+    seams: Vec<Seam>,
+    /// Behind all frames.
+    end: Place,
+}
+
+fn cut(
+    job: &RenderJob,
+    batches: &[Batch],
+    script: &Script,
+    frames: u64,
+    shards: usize,
+) -> Result<Cuts, JobError> {
+    let mut cutter = Cutter::new(frames, shards);
+    let mut found = Cuts::default();
+    // Frames before the line in hand, and cuts whose places are not known yet.
+    let mut before = 0;
+    let mut cuts = vec![0];
+    for batch in batches {
+        for entry in batch.entries(job, script)? {
+            let entry = entry?;
+            let Entry { game, .. } = &entry;
+            let begin = before;
+            for line in entry.lines(batch) {
+                let end = before + line.part.count() as u64;
+                let timeline = line.timeline(script)?;
+                let indices: Vec<usize> = line.part.frames().map(|(index, _)| index).collect();
+                let ply = |at: u64| {
+                    indices.get((at - before) as usize).map(|index| timeline.frame(*index).ply)
+                };
+                let stands = |at: u64| at > before && ply(at) != ply(at - 1);
+                for (at, seam) in cutter.cut(before..end, stands) {
+                    cuts.push(at);
+                    found.seams.push(seam);
+                }
+                before = end;
+                let place = |at| Place { file: batch.file, game: game.number, frame: at - begin };
+                let known = cuts.partition_point(|at| *at < end);
+                found.begins.extend(cuts.drain(..known).map(|at| (at, place(at))));
+                found.end = place(end);
+            }
+        }
+    }
+    Ok(found)
+}
+
+/// From the folder of `output` to the one where we are.
+fn way(output: &Path) -> io::Result<PathBuf> {
+    let folder = output.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let from = fs::canonicalize(folder.unwrap_or(Path::new(".")))?;
+    Ok(between(&from, &fs::canonicalize(env::current_dir()?)?))
+}
+
+/// From one absolute folder to another.
+fn between(from: &Path, to: &Path) -> PathBuf {
+    let (mut from, mut to) = (from.components().peekable(), to.components().peekable());
+    while from.peek().is_some() && from.peek() == to.peek() {
+        from.next();
+        to.next();
+    }
+    // Another drive is reached by its name alone.
+    let is_elsewhere = matches!(to.peek(), Some(Component::Prefix(_)));
+    let up = from.filter(|_| !is_elsewhere).map(|_| Component::ParentDir);
+    up.chain(to).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_way_from_a_folder_to_another() {
+        for (from, to, expected) in [
+            ("/a/b", "/a/b", ""),
+            ("/a/b/plans", "/a/b", ".."),
+            ("/a", "/a/b/c", "b/c"),
+            ("/a/x/y", "/a/b", "../../b"),
+            ("/x", "/", ".."),
+        ] {
+            assert_eq!(between(Path::new(from), Path::new(to)), Path::new(expected));
+        }
+    }
+}

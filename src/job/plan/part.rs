@@ -1,0 +1,143 @@
+//! A shard's part of a line of play.
+//!
+//! Others may write to the same folders meanwhile, even the same shard. So pictures alone are written, each whole under its
+//! own name, and nothing is removed; manifests, films and the report are for whoever merges.
+
+use std::ops::Range;
+use std::path::Path;
+
+use super::file::PlanError;
+use super::records::{Sum, Sums};
+use crate::job::JobError;
+use crate::job::game::{Line, Rendered};
+use crate::job::reels::Reels;
+use crate::job::report::FrameRow;
+use crate::job::run::{RenderJob, Run, ShardTask};
+use crate::job::studio::Studio;
+use crate::output::{Earlier, OutputError, is_whole, prepare_inside};
+
+/// Who tells which pictures of a folder are what they should be.
+pub struct Witness<'a> {
+    job: &'a RenderJob,
+    /// The folder within that of all output.
+    inside: &'a Path,
+    /// What manifests say, once there are some.
+    earlier: Earlier,
+    /// What a shard's report says.
+    sums: &'a Sums,
+}
+
+impl<'a> Witness<'a> {
+    pub fn new(job: &'a RenderJob, inside: &'a Path, sums: &'a Sums) -> Witness<'a> {
+        let earlier = Earlier::read(&job.out.join(inside), None);
+        Witness { job, inside, earlier, sums }
+    }
+
+    /// Whether the picture of `row` is there, is whole, and somebody tells that it is the right one: itself, its shard's
+    /// report, or a manifest.
+    pub fn vouches(&self, row: &FrameRow) -> bool {
+        let Some(file) = row.file() else { return false };
+        let inside = self.inside.join(file);
+        let format = self.job.format();
+        let is_whole = || is_whole(&self.job.out.join(&inside), format, row.fingerprint());
+        if format.is_sealed() {
+            return is_whole();
+        }
+        match self.sums.get(&*inside.to_string_lossy()) {
+            Some(told) => {
+                Sum::of(&self.job.out, &inside, row.fingerprint()).is_ok_and(|sum| sum == *told)
+            }
+            None => self.earlier.has_frame(file, row.fingerprint()) && is_whole(),
+        }
+    }
+
+    /// Refuses to replace a picture of which a manifest says that it is another one.
+    fn refuse_others<'b>(
+        &self,
+        mut rows: impl Iterator<Item = &'b FrameRow>,
+    ) -> Result<(), PlanError> {
+        let files = rows.by_ref().filter_map(|row| Some((row.file()?, row.fingerprint())));
+        let mut files = files.filter(|(file, print)| self.earlier.has_other(file, print));
+        match files.next() {
+            Some((file, _)) => {
+                Err(PlanError::WouldReplace { path: self.job.out.join(self.inside).join(file) })
+            }
+            None => Ok(()),
+        }
+    }
+}
+
+impl Line<'_> {
+    /// The places of its pictures that belong to the `share` of a shard, where so many of the game's come `before` it.
+    pub fn places(&self, before: u64, share: Range<u64>) -> Range<usize> {
+        let place = |at: u64| at.saturating_sub(before).min(self.part.count() as u64) as usize;
+        place(share.start)..place(share.end)
+    }
+
+    /// Renders those of its pictures that come in such places and are not there yet; tells in `rendered` how far it came,
+    /// even if it fails.
+    pub fn render_part(
+        &self,
+        run: &Run,
+        task: &ShardTask,
+        places: Range<usize>,
+        studio: &mut Studio,
+        rendered: &mut Rendered,
+    ) -> Result<(), JobError> {
+        let (job, inside) = (run.job, self.inside());
+        prepare_inside(&job.out, &inside)?;
+        run.progress.game(&self.players());
+        let mut layout = self.lay_out_part(run, places)?;
+        let witness = Witness::new(job, &inside, &task.sums);
+        witness.refuse_others(layout.planned.iter().map(|planned| &planned.row))?;
+        layout.keep(run, |row| witness.vouches(row));
+        let traced = layout.trace(run, studio, &mut Reels::none(run.progress), job.format());
+        rendered.kept = layout.planned.iter().filter(|planned| planned.is_kept).count() as u64;
+        rendered.frames = rendered.kept + traced.frames;
+        rendered.is_cancelled = traced.is_cancelled;
+        traced.outcome?;
+        if !job.format().is_sealed() {
+            for planned in &layout.planned[..traced.reached] {
+                let Some(file) = planned.row.file() else { continue };
+                let path = inside.join(file);
+                let sum = Sum::of(&job.out, &path, planned.row.fingerprint());
+                let failed = |error| OutputError { path: job.out.join(&path), error };
+                rendered.pictures.push(sum.map_err(failed)?);
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::game::{Game, Scanner};
+    use crate::job::batch::Part;
+    use std::borrow::Cow;
+    use std::path::PathBuf;
+
+    #[test]
+    fn a_share_of_a_game_is_told_to_its_lines() {
+        let scanned = Scanner::new("1. e4 *".as_bytes()).next().unwrap().unwrap();
+        let part = Part { first: 0, last: 1, frames: 0..10, every: 1 };
+        let line = Line {
+            file: "x.pgn",
+            game: Cow::Owned(Game::read(scanned, 1)),
+            part: &part,
+            folder: PathBuf::new(),
+            variation: None,
+            variations: &[],
+        };
+        for (before, share, expected) in [
+            (0, 0..10, 0..10),
+            (0, 4..100, 4..10),
+            (20, 0..25, 0..5),
+            (20, 25..40, 5..10),
+            (20, 0..20, 0..0),
+            (20, 30..40, 10..10),
+        ] {
+            assert_eq!(line.places(before, share.clone()), expected, "{share:?} after {before}");
+        }
+    }
+}
