@@ -90,6 +90,7 @@ fn shards_in_any_order_make_what_one_machine_makes() {
     for options in [
         &["--variations", "--film", "apng"][..],
         &["--animate", "--fps", "3", "--film", "gif", "--title"],
+        &["--variations", "--film", "gif", "--film", "apng", "--no-frames"],
         &["--format", "jpg"],
         &["--format", "webp", "--every", "2"],
         &["--at", "end", "--limit", "4"],
@@ -339,7 +340,6 @@ fn what_no_plan_can_have_is_refused() {
         (&["plan", "none.pgn"], 1, "none.pgn: no such file"),
         (&["plan", "games.pgn", "--shards", "0"], 2, "from 1 to 1000"),
         (&["plan", "games.pgn", "--shards", "1001"], 2, "from 1 to 1000"),
-        (&["plan", "games.pgn", "--for", "gif", "--no-frames"], 1, "--no-frames: films of a plan"),
         (&["plan", "games.pgn", "-o", "games.pgn"], 1, "games.pgn: is the file that is read"),
         (&["plan", "games.pgn", "-o", "-"], 2, "--output: expected a file, found `-`"),
         (&["verify", "none.jsonl"], 1, "none.jsonl: cannot be read"),

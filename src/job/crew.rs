@@ -72,6 +72,10 @@ pub fn with_crew(
     if games > 1 {
         studios = studios.into_iter().map(|studio| studio.sharing(&shared)).collect();
     }
+    let names = match task {
+        Task::Whole | Task::Merge => job.names.clone(),
+        Task::Shard(_) | Task::Verify => Some(job.names_of_shards()),
+    };
     let run = Run {
         job,
         script: job.showing.script(&job.picture.config, bodies),
@@ -79,6 +83,7 @@ pub fn with_crew(
         pool: &pool,
         fingerprints,
         task,
+        names,
         has_failed: AtomicBool::new(false),
     };
     let summary = work(&run, &mut studios)?;
@@ -202,7 +207,9 @@ impl Run<'_> {
             }
             let mut rendered = Rendered::default();
             outcome = match &self.task {
-                Task::Whole | Task::Merge => line.render(self, studio, &mut rendered),
+                Task::Whole | Task::Verify | Task::Merge => {
+                    line.render(self, studio, &mut rendered)
+                }
                 Task::Shard(task) => {
                     let share = task.shard.of(batch.file, game.number, entry.frames());
                     let places = line.places(before, share);
@@ -241,7 +248,7 @@ impl Run<'_> {
         let line = ReportLine::new(game, status, all.frames, Some(name)).with(lines);
         let line = match self.task {
             Task::Shard(_) => line.of_shard(batch, all.pictures),
-            Task::Whole | Task::Merge => line,
+            Task::Whole | Task::Verify | Task::Merge => line,
         };
         (line, outcome)
     }

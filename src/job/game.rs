@@ -12,14 +12,14 @@ use super::layout::{Layout, Planned};
 use super::plan::Sum;
 use super::reels::Reels;
 use super::report::{FrameRow, Manifest, tags, texts};
-use super::run::{Films, Run, Task};
+use super::run::{Films, RenderJob, Run, Task};
 use super::shots::Shots;
 use super::studio::Studio;
 use crate::game::Game;
 use crate::notation::Color;
 use crate::output::{
     Earlier, FilmFormat, FrameNames, film_name, is_whole, manifest_name, prepare_inside,
-    remove_temporaries, write_json,
+    remove_file, remove_temporaries, write_json,
 };
 use crate::text::shortened;
 use crate::timeline::{Script, Timeline};
@@ -91,7 +91,7 @@ impl Line<'_> {
         rendered: &mut Rendered,
     ) -> Result<(), JobError> {
         let (job, progress) = (run.job, run.progress);
-        let (wanted, names) = (job.frames.as_ref(), job.names.as_ref());
+        let (wanted, names) = (job.frames.as_ref(), run.names.as_ref());
         remove_temporaries(&prepare_inside(&job.out, &self.inside())?)?;
         progress.game(&self.players());
         let mut layout = self.lay_out(run)?;
@@ -118,6 +118,8 @@ impl Line<'_> {
         kept.extend(kept_films.iter().map(|format| film(*format)));
         let kept_frames = planned.iter().filter(|planned| planned.is_kept);
         kept.extend(kept_frames.filter_map(|planned| planned.row.file()).map(str::to_owned));
+        let spent: Vec<PathBuf> = layout.spent(run);
+        kept.extend(spent.iter().filter_map(|path| Some(path.file_name()?.to_str()?.to_owned())));
         earlier.remove(names, |name| kept.contains(name))?;
         let manifest = |films: &[FilmFormat], rows: Vec<&FrameRow>| {
             let films = films.iter().map(|format| film(*format)).collect();
@@ -150,6 +152,8 @@ impl Line<'_> {
                 |(place, planned): &(usize, &Planned)| *place < traced.reached || planned.is_kept;
             let rows = planned.iter().enumerate().filter(is_there);
             manifest(&made, rows.map(|(_, planned)| &planned.row).collect())?;
+        } else {
+            spent.iter().try_for_each(|path| remove_file(path))?;
         }
         Ok(filming?)
     }
@@ -184,19 +188,20 @@ impl Line<'_> {
 
     /// Works out all its pictures; none is kept yet, and nothing is written.
     pub fn lay_out<'a>(&'a self, run: &'a Run) -> Result<Layout<'a>, JobError> {
-        self.lay_out_part(run, 0..self.part.count())
+        self.lay_out_part(run, 0..self.part.count(), run.names.as_ref())
     }
 
-    /// Works out those of its pictures that come in such places, counted from 0.
+    /// Works out those of its pictures that come in such places, counted from 0, under such names.
     pub fn lay_out_part<'a>(
         &'a self,
         run: &'a Run,
         places: Range<usize>,
+        names: Option<&FrameNames>,
     ) -> Result<Layout<'a>, JobError> {
         let (game, job) = (self.game.as_ref(), run.job);
         let timeline = self.timeline(&run.script)?;
         let captions = GameCaptions::new(game, job.picture.config.captions);
-        let (names, format) = (job.names.as_ref(), job.names.as_ref().map(FrameNames::format));
+        let format = names.map(FrameNames::format);
         let frames = self.part.frames().skip(places.start).take(places.len());
         let planned = frames.map(|(index, number)| {
             let frame = timeline.frame(index);
@@ -210,6 +215,20 @@ impl Line<'_> {
         let planned = planned.collect();
         let folder = job.out.join(self.inside());
         Ok(Layout { game, folder, timeline, captions, planned })
+    }
+
+    /// Whether films alone are wanted of it, and all are there: then its pictures may be gone.
+    pub fn is_filmed(&self, run: &Run) -> Result<bool, JobError> {
+        let RenderJob { names: None, films, frames, out, .. } = run.job else { return Ok(false) };
+        let folder = out.join(self.inside());
+        if !folder.is_dir() {
+            return Ok(false);
+        }
+        let layout = self.lay_out_part(run, 0..self.part.count(), None)?;
+        let fingerprint = fingerprint(run, &layout.planned);
+        let earlier = Earlier::read(&folder, frames.as_ref());
+        let mut names = films.formats.iter().map(|format| film_name(*format, frames.as_ref()));
+        Ok(names.all(|name| earlier.has_film(&name, &fingerprint)))
     }
 
     /// All its frames.

@@ -9,7 +9,7 @@ use super::captions::GameCaptions;
 use super::desk::{Desk, Sheet};
 use super::reels::Reels;
 use super::report::{FrameRow, texts};
-use super::run::Run;
+use super::run::{Run, Task};
 use super::studio::Studio;
 use crate::game::Game;
 use crate::output::{FINGERPRINT, OutputError, PictureFormat, RepeatedPicture};
@@ -71,7 +71,8 @@ impl Layout<'_> {
         let mut coming = &coming[..];
         let (mut reached, mut filmed, mut is_cancelled) = (0, 0, false);
         run.pool.in_place_scope(|scope| {
-            for Planned { index, row, is_kept, .. } in &self.planned {
+            for planned in &self.planned {
+                let Planned { index, row, is_kept, .. } = planned;
                 is_cancelled = run.is_over();
                 if is_cancelled || desk.has_failed() {
                     break;
@@ -79,7 +80,7 @@ impl Layout<'_> {
                 coming = coming.strip_prefix(&[*index]).unwrap_or(coming);
                 let is_filmed = reels.wants(*index);
                 if !is_kept || is_filmed {
-                    let picture = self.kept(row, *is_kept, format).unwrap_or_else(|| {
+                    let picture = self.read(run, planned).unwrap_or_else(|| {
                         let frame = self.timeline.frame(*index);
                         let content = self.captions.of(&frame);
                         let coming = coming.iter().map(|index| self.timeline.frame(*index));
@@ -105,15 +106,22 @@ impl Layout<'_> {
         Traced { reached, frames: written + filmed, is_cancelled, outcome }
     }
 
-    /// A picture that is kept, as its file has it, if that loses nothing.
-    fn kept(
-        &self,
-        row: &FrameRow,
-        is_kept: bool,
-        format: PictureFormat,
-    ) -> Option<Arc<RepeatedPicture>> {
-        let file = row.file().filter(|_| is_kept && format.is_exact())?;
-        let picture = image::open(self.folder.join(file)).ok()?;
-        Some(Arc::new(RepeatedPicture::new(picture)))
+    /// A picture that is there, as its file has it, if that loses nothing.
+    fn read(&self, run: &Run, planned: &Planned) -> Option<Arc<RepeatedPicture>> {
+        let kept = planned.row.file().filter(|_| planned.is_kept);
+        let path =
+            kept.map_or_else(|| self.spent_by(run, planned), |file| Some(self.folder.join(file)));
+        let path = path.filter(|_| run.job.format().is_exact())?;
+        Some(Arc::new(RepeatedPicture::new(image::open(path).ok()?)))
+    }
+
+    /// The pictures of shards that only films want.
+    pub fn spent(&self, run: &Run) -> Vec<PathBuf> {
+        self.planned.iter().filter_map(|planned| self.spent_by(run, planned)).collect()
+    }
+
+    fn spent_by(&self, run: &Run, planned: &Planned) -> Option<PathBuf> {
+        let is_spent = matches!(run.task, Task::Merge) && run.names.is_none();
+        is_spent.then(|| self.folder.join(run.job.names_of_shards().name(planned.number)))
     }
 }

@@ -42,9 +42,14 @@ pub struct RenderJob {
 }
 
 impl RenderJob {
-    /// The format of its pictures, where there are any.
+    /// The format of its pictures.
     pub fn format(&self) -> PictureFormat {
         self.names.as_ref().map_or(PictureFormat::Png, FrameNames::format)
+    }
+
+    /// How pictures are named that shards make, even where films alone are wanted.
+    pub fn names_of_shards(&self) -> FrameNames {
+        self.names.clone().unwrap_or(FrameNames::new(PictureFormat::Png))
     }
 }
 
@@ -60,7 +65,9 @@ pub struct Films {
 pub enum Task {
     /// All that is not there yet.
     Whole,
-    /// All but pictures: they are there, and as they should be.
+    /// Nothing: it is looked at what shards have done.
+    Verify,
+    /// All but pictures: they are there, and as they should be. Those that only films want go.
     Merge,
     /// The pictures of a shard.
     Shard(ShardTask),
@@ -81,6 +88,8 @@ pub struct Run<'a> {
     pub pool: &'a ThreadPool,
     pub fingerprints: Fingerprints<'a>,
     pub task: Task,
+    /// How frames are named as pictures while it is under way; there are none when `None`.
+    pub names: Option<FrameNames>,
     /// Whether a game could not be rendered, so that others are not begun or gone on with.
     pub has_failed: AtomicBool,
 }

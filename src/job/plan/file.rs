@@ -145,8 +145,6 @@ pub enum PlanError {
     Stream(String),
     #[error("{0}: has a name that cannot be written into a plan, expected UTF-8")]
     Name(String),
-    #[error("--no-frames: films of a plan are made of its pictures, expected both")]
-    FilmsAlone,
     #[error("{name}: does not fit its games, {found} frames instead of {expected}")]
     Misfit { name: String, found: u64, expected: u64 },
 }

@@ -48,7 +48,7 @@ pub struct Planned {
 /// there are as many as have some minutes of work each, by a quick measurement.
 ///
 /// # Errors
-/// As for rendering, as far as they show before the first picture; input that is no file; films without pictures.
+/// As for rendering, as far as they show before the first picture; input that is no file.
 pub fn plan(
     job: &RenderJob,
     arguments: Vec<String>,
@@ -56,9 +56,6 @@ pub fn plan(
     shards: Option<usize>,
     progress: &dyn Progress,
 ) -> Result<Planned, JobError> {
-    if job.names.is_none() {
-        return Err(PlanError::FilmsAlone.into());
-    }
     let is_file = |input: &&PathBuf| fs::metadata(input).is_ok_and(|data| !data.is_file());
     let is_stream =
         |input: &&PathBuf| *input == Path::new("-") || is_file(input) && !input.is_dir();

@@ -87,7 +87,13 @@ impl Line<'_> {
         let (job, inside) = (run.job, self.inside());
         prepare_inside(&job.out, &inside)?;
         run.progress.game(&self.players());
-        let mut layout = self.lay_out_part(run, places)?;
+        if self.is_filmed(run)? {
+            places.clone().for_each(|_| run.progress.frame_done());
+            rendered.kept = places.len() as u64;
+            rendered.frames = rendered.kept;
+            return Ok(());
+        }
+        let mut layout = self.lay_out_part(run, places, run.names.as_ref())?;
         let witness = Witness::new(job, &inside, &task.sums);
         witness.refuse_others(layout.planned.iter().map(|planned| &planned.row))?;
         layout.keep(run, |row| witness.vouches(row));

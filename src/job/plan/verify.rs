@@ -71,7 +71,7 @@ pub fn verify(plan: &Plan, job: &RenderJob, progress: &dyn Progress) -> Result<V
     records.refuse_others()?;
     let batches = batches(plan, job)?;
     let mut verdict = Verdict::default();
-    with_crew(job, Task::Merge, 1, progress, |run, _| {
+    with_crew(job, Task::Verify, 1, progress, |run, _| {
         progress.begin(plan.head.frames);
         for batch in &batches {
             let look = Look { plan, run, batch, records: &records, told: Mutex::default() };
@@ -151,6 +151,12 @@ impl Look<'_> {
         let mut faults: Vec<Fault> = Vec::new();
         let mut before = 0;
         for line in entry.lines(batch) {
+            if line.is_filmed(run)? {
+                let frames = line.part.count() as u64;
+                (0..frames).for_each(|_| run.progress.frame_done());
+                before += frames;
+                continue;
+            }
             let layout = line.lay_out(run)?;
             let inside = line.inside();
             let frames = layout.planned.len() as u64;
