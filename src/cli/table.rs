@@ -74,7 +74,8 @@ pub fn plan(planned: &Planned) -> String {
     let cut = match within_lines {
         0 => "each begins with a game, so the cuts cost next to nothing".to_owned(),
         _ => format!(
-            "{within_lines} of them begin within a game{torn}, which costs about {} more, {share:.1} %",
+            "{within_lines} of them {} within a game{torn}, which costs {} more at most, {share:.1} %",
+            if *within_lines == 1 { "begins" } else { "begin" },
             time(*cost)
         ),
     };

@@ -1,5 +1,6 @@
 //! From a job to a plan: what there is to do, what that takes, and where it is cut.
 
+use std::cell::LazyCell;
 use std::env;
 use std::fs::{self, File};
 use std::io;
@@ -40,7 +41,8 @@ pub struct Planned {
     pub within_moves: usize,
     /// What one machine would take for all.
     pub estimate: Estimate,
-    /// What the cuts cost more than that, in seconds of one machine.
+    /// What the cuts cost more than that at most, in seconds of one machine: a whole picture each, which the machine might
+    /// have had to make there anyway.
     pub cost: f64,
 }
 
@@ -170,10 +172,14 @@ fn cut(
             let begin = before;
             for line in entry.lines(batch) {
                 let end = before + line.part.count() as u64;
-                let timeline = line.timeline(script)?;
-                let indices: Vec<usize> = line.part.frames().map(|(index, _)| index).collect();
+                // Few lines have a cut within them.
+                let laid_out = LazyCell::new(|| {
+                    let indices: Vec<usize> = line.part.frames().map(|(index, _)| index).collect();
+                    Some((line.timeline(script).ok()?, indices))
+                });
                 let ply = |at: u64| {
-                    indices.get((at - before) as usize).map(|index| timeline.frame(*index).ply)
+                    let (timeline, indices) = laid_out.as_ref()?;
+                    Some(timeline.frame(*indices.get((at - before) as usize)?).ply)
                 };
                 let stands = |at: u64| at > before && ply(at) != ply(at - 1);
                 for (at, seam) in cutter.cut(before..end, stands) {
