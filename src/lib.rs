@@ -27,7 +27,7 @@
 //! | [`export`] | a scene as another renderer's text | geometry, scene, assets, config |
 //! | [`caption`] | the strip of words on a picture, and the cards before and behind a game | assets, config, notation |
 //! | [`output`] | pictures, films, manifests, reports; whole files only | text |
-//! | [`job`] | what to render: game → timeline → scene → tracer → output; what is done already; inspect; diagram; export; estimate; bench | all of the above |
+//! | [`job`] | what to render: game → timeline → scene → tracer → output; what is done already; plans, shards and their merging; inspect; diagram; export; estimate; bench | all of the above |
 //!
 //! The binary (`main`, `cli`, `progress`, `signals`) turns arguments into a typed job, shows how far it is,
 //! and sets the exit code; it alone prints. A test holds the imports against this table; what modules' own
@@ -43,7 +43,8 @@
 //! crazyhouse keeps its identity in hand and where it is dropped: a new one would change its grain in mid-air. Files of
 //! games are read twice, to see what there is and to render it game by game, so that they may be of any length. A game's
 //! manifest is written before its pictures, and says of each what it shows (a fingerprint), so that whatever ends a run,
-//! the next one knows what can stay. Where the program differs
+//! the next one knows what can stay. Shards of a plan write pictures alone and remove nothing, so that they need not know of each
+other; manifests, films and reports come with the merging. Where the program differs
 //! from the thesis: light loses a share at each surface of glass, where the thesis has full shadows;
 //! total internal reflection throws all back, whatever the material's shares; colours are cut to what
 //! can be shown when they are stored, not at each surface.
