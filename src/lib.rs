@@ -44,7 +44,7 @@
 //! games are read twice, to see what there is and to render it game by game, so that they may be of any length. A game's
 //! manifest is written before its pictures, and says of each what it shows (a fingerprint), so that whatever ends a run,
 //! the next one knows what can stay. Shards of a plan write pictures alone and remove nothing, so that they need not know of each
-other; manifests, films and reports come with the merging. Where the program differs
+//! other; manifests, films and reports come with the merging. Where the program differs
 //! from the thesis: light loses a share at each surface of glass, where the thesis has full shadows;
 //! total internal reflection throws all back, whatever the material's shares; colours are cut to what
 //! can be shown when they are stored, not at each surface.

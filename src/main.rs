@@ -17,7 +17,8 @@ use lightsquare::job::{
 };
 use lightsquare::tracer::RayCounts;
 
-use cli::{Cli, Command, UsageError};
+use cli::plan::{PlanArgs, PlannedArgs};
+use cli::{Cli, Command, MessageArgs, RenderArgs, UsageError};
 use progress::{ProgressMode, Terminal, Verbosity};
 use signals::Signals;
 
@@ -52,52 +53,26 @@ fn run() -> anyhow::Result<ExitCode> {
             writeln!(io::stdout(), "{}", cli::table::estimate(&estimate))?;
             Ok(ExitCode::SUCCESS)
         }
+        Command::Render(args) if args.plan.is_some() => shard(&args, &messages),
         Command::Render(args) => {
-            let signals = Signals::watch().context("signals cannot be watched")?;
-            if let Some(path) = &args.plan {
-                let plan = open_plan(path)?;
-                let (shard, threads) = args.shard(&plan)?;
-                let job = cli::planned_job(&plan, threads)?;
-                // A signal ends it at once: whoever sends it will not wait, and the next one goes on from there.
-                let terminal = terminal(Signals::default());
-                tell_config(&terminal, &job.picture);
-                let summary = job::render_shard(&plan, &job, shard, &terminal);
-                terminal.finish();
-                let Summary { frames, kept, .. } = summary?;
-                let frames = frames_of(frames, kept);
-                terminal.say(&format!("shard {shard}: {frames} in {}", job.out.display()));
-                return Ok(ExitCode::SUCCESS);
-            }
             let job = args.into_job()?;
+            let signals = Signals::watch().context("signals cannot be watched")?;
             let terminal = terminal(signals.clone());
             tell_config(&terminal, &job.picture);
             let summary = job::render(&job, &terminal);
             terminal.finish();
             Ok(rendered(&job, &summary?, &terminal, &signals))
         }
-        Command::Plan(args) => {
-            let arguments = cli::arguments_to_keep()?;
-            let (output, shards) = (args.output.clone(), args.shards);
-            let job = args.into_job()?;
-            let terminal = terminal(Signals::default());
-            tell_config(&terminal, &job.picture);
-            let planned = job::plan(&job, arguments, &output, shards, &terminal)?;
-            terminal.say(&cli::table::plan(&planned));
-            let all: Vec<usize> = (0..planned.shards).collect();
-            writeln!(io::stdout(), "{}", cli::table::array(&all))?;
-            Ok(ExitCode::SUCCESS)
-        }
+        Command::Plan(args) => plan(args, &terminal(Signals::default())),
         Command::Verify(args) => {
-            let plan = open_plan(&args.plan)?;
-            let job = cli::planned_job(&plan, &args.threads)?;
+            let (plan, job) = planned(&args)?;
             let terminal = terminal(Signals::default());
             let verdict = job::verify(&plan, &job, &terminal);
             terminal.finish();
             verified(&verdict?, &job, &terminal)
         }
         Command::Merge(args) => {
-            let plan = open_plan(&args.plan)?;
-            let job = cli::planned_job(&plan, &args.threads)?;
+            let (plan, job) = planned(&args)?;
             let signals = Signals::watch().context("signals cannot be watched")?;
             let terminal = terminal(signals.clone());
             let merged = job::merge(&plan, &job, &terminal);
@@ -145,14 +120,49 @@ fn run() -> anyhow::Result<ExitCode> {
     }
 }
 
+/// Cuts a job into shards, and prints which tasks there are to start.
+fn plan(args: PlanArgs, terminal: &Terminal) -> anyhow::Result<ExitCode> {
+    let arguments = cli::plan::arguments_to_keep()?;
+    let (output, shards) = (args.output.clone(), args.shards);
+    let job = args.into_job()?;
+    tell_config(terminal, &job.picture);
+    let planned = job::plan(&job, arguments, &output, shards, terminal)?;
+    terminal.say(&cli::table::plan(&planned));
+    let all: Vec<usize> = (0..planned.shards).collect();
+    writeln!(io::stdout(), "{}", cli::table::array(&all))?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Renders a shard. A signal ends it at once: whoever sends it will not wait, and the next one goes on from there.
+fn shard(args: &RenderArgs, messages: &MessageArgs) -> anyhow::Result<ExitCode> {
+    let Some(path) = &args.plan else { return Ok(ExitCode::SUCCESS) };
+    Signals::watch().context("signals cannot be watched")?;
+    let plan = open_plan(path)?;
+    let (number, threads) = args.shard(&plan)?;
+    let job = cli::plan::planned_job(&plan, threads)?;
+    // Whose signals nobody takes over.
+    let terminal = Terminal::new(messages.progress, messages.verbosity(), Signals::default());
+    tell_config(&terminal, &job.picture);
+    let summary = job::render_shard(&plan, &job, number, &terminal);
+    terminal.finish();
+    let Summary { frames, kept, .. } = summary?;
+    terminal.say(&format!("shard {number}: {} in {}", frames_of(frames, kept), job.out.display()));
+    Ok(ExitCode::SUCCESS)
+}
+
+/// A plan, and the job that it stands for.
+fn planned(args: &PlannedArgs) -> anyhow::Result<(Plan, RenderJob)> {
+    let plan = open_plan(&args.plan)?;
+    let job = cli::plan::planned_job(&plan, &args.threads)?;
+    Ok((plan, job))
+}
+
 /// Reads a plan, and goes where its paths begin.
 fn open_plan(path: &Path) -> anyhow::Result<Plan> {
     let plan = Plan::read(path).map_err(JobError::from)?;
-    let folder = plan.folder(path);
-    if !folder.as_os_str().is_empty() {
-        let what = "is where the paths of the plan begin, and cannot be entered";
-        env::set_current_dir(&folder).with_context(|| format!("{}: {what}", folder.display()))?;
-    }
+    let folder = plan.folder(path).with_context(|| path.display().to_string())?;
+    let what = "is where the paths of the plan begin, and cannot be entered";
+    env::set_current_dir(&folder).with_context(|| format!("{}: {what}", folder.display()))?;
     Ok(plan)
 }
 

@@ -64,8 +64,20 @@ fn plan(folder: &Path, options: &[&str], shards: usize) {
     assert_eq!(told, format!("--array={all}\n"));
 }
 
-fn shard(folder: &Path, number: usize) {
-    done(folder, &["render", "--plan", "plan.jsonl", "--shard", &number.to_string()]);
+/// Renders a shard; what is said of it.
+fn shard(folder: &Path, number: usize) -> String {
+    let number = number.to_string();
+    let (code, _, said) = run(folder, &["render", "--plan", "plan.jsonl", "--shard", &number]);
+    assert_eq!(code, 0, "{said}");
+    said
+}
+
+/// Renders a shard of which everything is there.
+fn kept(folder: &Path, number: usize) {
+    let said = shard(folder, number);
+    let mut numbers = said.split(|c: char| !c.is_ascii_digit()).filter(|part| !part.is_empty());
+    let [_, frames, kept] = [(); 3].map(|()| numbers.next());
+    assert!(frames == Some("0") || frames == kept, "{said}");
 }
 
 /// Merges, and gives all output. One game is partial and one is skipped.
@@ -108,9 +120,10 @@ fn shards_in_any_order_make_what_one_machine_makes() {
                 shard(folder, if number % 2 == 0 { number } else { other });
                 shard(folder, if number % 2 == 0 { other } else { number });
             }
+            // Sent again, all of it, before it is merged and behind.
+            (0..shards).for_each(|number| kept(folder, number));
             assert_same(&merged(folder), &expected, &format!("{options:?} in {shards}"));
-            // Sent again, all of it.
-            (0..shards).for_each(|number| shard(folder, number));
+            (0..shards).for_each(|number| kept(folder, number));
             assert_same(&merged(folder), &expected, &format!("{options:?} in {shards} again"));
         }
     }
@@ -137,7 +150,9 @@ fn verify_finds_what_is_missing_cut_or_flipped() {
         let folder = folder();
         let folder = folder.path();
         plan(folder, &["--format", ending], 3);
-        (0..3).for_each(|number| shard(folder, number));
+        for number in 0..3 {
+            shard(folder, number);
+        }
         let name = |index: usize| format!("out/games/0001-a-b/frame_{index:05}.{ending}");
         let bytes = fs::read(folder.join(name(1))).unwrap();
         fs::write(folder.join(name(1)), &bytes[..bytes.len() - 5]).unwrap();
@@ -165,46 +180,93 @@ fn verify_finds_what_is_missing_cut_or_flipped() {
         }
         assert!(!folder.join("out/games/report.jsonl").exists());
         // What it prints is enough to send again.
-        [0, 2].into_iter().for_each(|number| shard(folder, number));
+        for number in [0, 2] {
+            shard(folder, number);
+        }
         assert_same(&merged(folder), &alone(&["--format", ending]), ending);
     }
 }
 
 #[test]
-fn a_shard_that_is_ended_goes_on_when_it_is_sent_again() {
-    let options = ["--animate", "--fps", "30", "--quality", "print", "--size", "320x200"];
+fn films_alone_are_made_where_no_cut_goes_through_them() {
+    let options = ["--film", "gif", "--film", "apng", "--no-frames"];
+    let expected = alone(&options);
     let folder = folder();
     let folder = folder.path();
-    let games = ["plan", "games.pgn", "--select", "1", "--shards", "1"];
-    done(folder, &[&games[..], &["--look", "thesis"], &options].concat());
-    let pictures = folder.join("out/games/0001-a-b");
-    let count = || fs::read_dir(&pictures).map_or(0, |entries| entries.count());
-    for (signal, expected) in [("-TERM", Some(143)), ("-KILL", None), ("-INT", Some(130))] {
-        let before = count();
-        let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_lightsquare"))
-            .args(["render", "--plan", "plan.jsonl", "--cpu", "1"])
-            .env("SLURM_ARRAY_TASK_ID", "0")
-            .current_dir(folder)
-            .stderr(Stdio::null())
-            .spawn()
-            .unwrap();
-        while count() < before + 3 {
-            assert_eq!(child.try_wait().unwrap(), None, "it ended before it was told to");
-            thread::sleep(Duration::from_millis(5));
-        }
-        let id = child.id().to_string();
-        std::process::Command::new("kill").args([signal, &id]).status().unwrap();
-        assert_eq!(child.wait().unwrap().code(), expected, "{signal}");
-        // No film, no manifest, and no picture that is not whole.
-        let (code, told, _) = run(folder, &["verify", "plan.jsonl"]);
-        assert_eq!(code, 3);
-        assert!(!told.contains("broken"), "{told}");
+    plan(folder, &options, 6);
+    for number in 0..6 {
+        shard(folder, number);
     }
-    shard(folder, 0);
-    done(folder, &["merge", "plan.jsonl"]);
-    let games = ["render", "games.pgn", "--select", "1", "--out", "alone"];
-    done(folder, &[&games[..], &["--look", "thesis"], &options].concat());
-    assert_same(&tree(&folder.join("out")), &tree(&folder.join("alone")), "");
+    let out = tree(&folder.join("out"));
+    let count = |ending: &str| {
+        out.keys().filter(|name| name.extension().is_some_and(|end| end == ending)).count()
+    };
+    // Three games of five are cut.
+    assert_eq!((count("gif"), count("apng")), (2, 2));
+    assert!(count("png") > 0);
+    assert_same(&merged(folder), &expected, "");
+    let film = folder.join("out/games/0001-a-b/film.gif");
+    fs::remove_file(&film).unwrap();
+    let (code, told, _) = run(folder, &["verify", "plan.jsonl"]);
+    assert_eq!(
+        (code, &*told),
+        (3, "--array=0-1\n0\tgames/0001-a-b\t0-3\tmissing\n1\tgames/0001-a-b\t4-6\tmissing\n")
+    );
+    for number in 0..2 {
+        shard(folder, number);
+    }
+    assert_same(&merged(folder), &expected, "again");
+    // A film of something else is not replaced.
+    let other = ["plan", "games.pgn", "--shards", "1", "-o", "new.jsonl", "--captions"];
+    done(folder, &[&other[..], &["--size", "160x120"], &options].concat());
+    let said = refused(folder, &["render", "--plan", "new.jsonl", "--shard", "0"], 1);
+    assert!(said.contains("out/games/0001-a-b/game.json: is of another run or plan"), "{said}");
+}
+
+#[test]
+fn a_shard_that_is_ended_goes_on_when_it_is_sent_again() {
+    for ending in ["png", "bmp"] {
+        let options = ["--animate", "--fps", "10", "--quality", "print", "--format", ending];
+        let options = [&options[..], &["--look", "thesis", "--size", "320x200"]].concat();
+        let folder = folder();
+        let folder = folder.path();
+        let games = ["plan", "games.pgn", "--select", "1", "--shards", "1"];
+        done(folder, &[&games[..], &options].concat());
+        let pictures = || {
+            let entries = fs::read_dir(folder.join("out/games/0001-a-b")).into_iter().flatten();
+            let names = entries.map(|entry| entry.unwrap().path());
+            names.filter(|name| name.extension().is_some_and(|end| end == ending)).count()
+        };
+        for (signal, expected) in [("-TERM", Some(143)), ("-KILL", None), ("-INT", Some(130))] {
+            let before = pictures();
+            let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_lightsquare"))
+                .args(["render", "--plan", "plan.jsonl", "--cpu", "1"])
+                .env("SLURM_ARRAY_TASK_ID", "0")
+                .current_dir(folder)
+                .stderr(Stdio::null())
+                .spawn()
+                .unwrap();
+            while pictures() < before + 3 {
+                assert_eq!(child.try_wait().unwrap(), None, "it ended before it was told to");
+                thread::sleep(Duration::from_millis(5));
+            }
+            let id = child.id().to_string();
+            std::process::Command::new("kill").args([signal, &id]).status().unwrap();
+            assert_eq!(child.wait().unwrap().code(), expected, "{signal}");
+            let (code, told, _) = run(folder, &["verify", "plan.jsonl"]);
+            assert_eq!(code, 3);
+            // One may be written, and not be noted yet.
+            assert!(told.matches("broken").count() <= usize::from(ending != "png"), "{told}");
+        }
+        let before = pictures();
+        let said = shard(folder, 0);
+        let kept = said.split('(').nth(1).and_then(|rest| rest.split(' ').next()).unwrap();
+        assert!(kept.parse::<usize>().unwrap() + 3 >= before, "{before} were there: {said}");
+        done(folder, &["merge", "plan.jsonl"]);
+        let games = ["render", "games.pgn", "--select", "1", "--out", "alone"];
+        done(folder, &[&games[..], &options].concat());
+        assert_same(&tree(&folder.join("out")), &tree(&folder.join("alone")), ending);
+    }
 }
 
 #[test]
@@ -303,7 +365,7 @@ fn output_of_another_plan_or_run_is_left_alone() {
     let said = refused(folder, &[&games[..], &["out"], &PLAIN].concat(), 1);
     assert!(said.contains("out/.shards: has shards of a plan that are not merged"), "{said}");
     let said = refused(folder, &["render", "games.pgn"], 1);
-    assert!(said.contains("expected `lightsquare merge` first, or another --out"), "{said}");
+    assert!(said.contains("expected `lightsquare merge` first, another --out"), "{said}");
     fs::rename(folder.join("out"), folder.join("elsewhere")).unwrap();
     done(folder, &[&games[..], &["out"], &PLAIN].concat());
     fs::rename(folder.join("elsewhere"), folder.join("out")).unwrap();
@@ -311,36 +373,47 @@ fn output_of_another_plan_or_run_is_left_alone() {
         [&["render", "--plan", "new.jsonl", "--shard", "1"][..], &["verify", "new.jsonl"]]
     {
         let said = refused(folder, arguments, 1);
-        assert!(said.contains("out/.shards: holds shards of another plan ("), "{said}");
+        assert!(said.contains("has shards of another plan, this is"), "{said}");
     }
     assert_same(&tree(&folder.join("out")), &before, "");
     // Shards that are merged.
     shard(folder, 1);
     let before = merged(folder);
-    let other = ["plan", "games.pgn", "--shards", "1", "-o", "new.jsonl", "--plain", "--captions"];
-    done(folder, &[&other[..], &["--size", "160x120"]].concat());
-    let said = refused(folder, &["render", "--plan", "new.jsonl", "--shard", "0"], 1);
-    assert!(
-        said.contains("frame_00000.png: is of another plan or run, with other settings"),
-        "{said}"
-    );
-    let after = tree(&folder.join("out"))
-        .into_iter()
-        .filter(|(name, _)| !name.starts_with(".shards"))
-        .collect();
-    assert_same(&after, &before, "");
+    for (options, what) in [
+        (&["--plain", "--captions", "--size", "160x120"][..], "other pictures"),
+        (&["--format", "webp"], "another format"),
+        (&["--to", "1w"], "less"),
+        (&["--film", "gif", "--no-frames"], "films alone"),
+    ] {
+        let other = ["plan", "games.pgn", "--shards", "1", "-o", "new.jsonl"];
+        let look = if options.contains(&"--size") { &PLAIN[..4] } else { &PLAIN[..] };
+        done(folder, &[&other[..], look, options].concat());
+        for arguments in
+            [&["render", "--plan", "new.jsonl", "--shard", "0"][..], &["verify", "new.jsonl"]]
+        {
+            let said = refused(folder, arguments, 1);
+            assert!(said.contains("0001-a-b/game.json: is of another run or plan"), "{said}");
+        }
+        assert_same(&tree(&folder.join("out")), &before, what);
+    }
 }
 
 #[test]
 fn what_no_plan_can_have_is_refused() {
     let folder = folder();
     let folder = folder.path();
+    fs::write(folder.join("own.ini"), "").unwrap();
     for (arguments, code, expected) in [
         (&["plan", "-"][..], 1, "-: a plan's games are read by every shard, expected files"),
         (&["plan", "none.pgn"], 1, "none.pgn: no such file"),
         (&["plan", "games.pgn", "--shards", "0"], 2, "from 1 to 1000"),
         (&["plan", "games.pgn", "--shards", "1001"], 2, "from 1 to 1000"),
         (&["plan", "games.pgn", "-o", "games.pgn"], 1, "games.pgn: is the file that is read"),
+        (
+            &["plan", "games.pgn", "-c", "own.ini", "-o", "own.ini"],
+            1,
+            "own.ini: is the file that is",
+        ),
         (&["plan", "games.pgn", "-o", "-"], 2, "--output: expected a file, found `-`"),
         (&["verify", "none.jsonl"], 1, "none.jsonl: cannot be read"),
         (&["verify", "games.pgn"], 1, "games.pgn: is no plan of lightsquare"),
@@ -378,6 +451,34 @@ fn what_no_plan_can_have_is_refused() {
         assert!(said.contains(expected), "{arguments:?}: {said}");
     }
     assert_eq!(fs::read_to_string(folder.join("games.pgn")).unwrap(), GAMES);
+}
+
+#[test]
+fn games_of_which_nothing_can_be_shown_are_reported_as_ever() {
+    let folder = folder();
+    let folder = folder.path();
+    plan(folder, &["--select", "3", "--tag", "White=E"], 2);
+    for number in 0..2 {
+        shard(folder, number);
+    }
+    let expected = alone(&["--select", "3", "--tag", "White=E"]);
+    assert_same(&merged(folder), &expected, "");
+}
+
+#[test]
+fn what_writes_there_already_keeps_shards_out_and_they_leave_nothing_behind() {
+    let folder = folder();
+    let folder = folder.path();
+    plan(folder, &[], 1);
+    fs::create_dir_all(folder.join("out/others")).unwrap();
+    let lock = fs::File::create(folder.join("out/others/.lock")).unwrap();
+    lock.lock().unwrap();
+    let said = refused(folder, &["render", "--plan", "plan.jsonl", "--shard", "0"], 1);
+    assert!(said.contains("out/others: another lightsquare"), "{said}");
+    assert!(!folder.join("out/.shards").exists());
+    drop(lock);
+    shard(folder, 0);
+    merged(folder);
 }
 
 #[test]

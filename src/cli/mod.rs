@@ -3,6 +3,7 @@
 mod film;
 mod marks;
 mod picture;
+pub mod plan;
 mod preset;
 mod print;
 mod subject;
@@ -14,25 +15,22 @@ mod wanted;
 use std::path::{Path, PathBuf};
 
 use anyhow::bail;
-use clap::error::ErrorKind;
-use clap::parser::ValueSource;
-use clap::{
-    ArgMatches, Args, ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum,
-};
+use clap::{Args, ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 use lightsquare::config::{Config, Look, Shading};
 use lightsquare::game::{Letters, Moment};
 use lightsquare::job::{
-    BenchJob, DiagramJob, ExportJob, InspectJob, Listing, PictureSettings, Plan, RenderJob,
+    BenchJob, DiagramJob, ExportJob, InspectJob, Listing, PictureSettings, RenderJob,
 };
 use lightsquare::output::{FORMATS, PictureFormat};
 
 use crate::progress::{ProgressMode, Verbosity};
 use film::FilmArgs;
 use marks::DrawnArgs;
-use picture::{PictureArgs, ThreadsArgs};
+use picture::PictureArgs;
+use plan::{PlanArgs, PlannedArgs};
 use print::PrintArgs;
 use subject::SubjectArgs;
-use values::{every, plies, runs, shards, threads};
+use values::{every, plies, runs, threads};
 use wanted::WantedArgs;
 
 /// Reads chess games (PGN), replays them and ray-traces them into pictures and films.
@@ -78,7 +76,7 @@ pub fn parse() -> Cli {
     };
     let mut command = Cli::command().color(choice);
     let matches = command.get_matches_mut();
-    refuse_beside_plan(&mut command, &matches);
+    plan::refuse_beside_plan(&mut command, &matches);
     let cli = Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
     match cli.messages.color {
         ColorMode::Auto => {}
@@ -86,27 +84,6 @@ pub fn parse() -> Cli {
         ColorMode::Never => anstream::ColorChoice::Never.write_global(),
     }
     cli
-}
-
-/// What may be said of a shard; its plan says all else.
-const BESIDE_PLAN: [&str; 7] = ["plan", "shard", "cpu", "quiet", "verbose", "color", "progress"];
-
-/// Refuses options of `render` that a plan has settled.
-fn refuse_beside_plan(command: &mut clap::Command, matches: &ArgMatches) {
-    let Some(("render", given)) = matches.subcommand() else { return };
-    let Some(render) = command.find_subcommand_mut("render") else { return };
-    let is_given = |id: &str| given.value_source(id) == Some(ValueSource::CommandLine);
-    let others = render.get_arguments().filter(|argument| {
-        let id = argument.get_id().as_str();
-        !BESIDE_PLAN.contains(&id) && !matches!(id, "help" | "version") && is_given(id)
-    });
-    let other = others.map(ToString::to_string).next().filter(|_| is_given("plan"));
-    if let Some(other) = other {
-        let message = format!(
-            "the argument '{other}' cannot be used with '--plan <FILE>', which says all but --cpu"
-        );
-        render.error(ErrorKind::ArgumentConflict, message).exit();
-    }
 }
 
 /// How much is said, and how.
@@ -140,13 +117,13 @@ pub enum Command {
     #[command(after_help = format!("{RENDER_EXAMPLES}\n\n{}", wanted::EXAMPLES))]
     Render(RenderArgs),
     /// Cut the rendering of games into shards, for many machines
-    #[command(after_help = format!("{PLAN_EXAMPLES}\n\n{}", wanted::EXAMPLES))]
+    #[command(after_help = format!("{}\n\n{}", plan::PLAN_EXAMPLES, wanted::EXAMPLES))]
     Plan(PlanArgs),
     /// Say which pictures of a plan are missing or broken
-    #[command(after_help = VERIFY_EXAMPLES)]
+    #[command(after_help = plan::VERIFY_EXAMPLES)]
     Verify(PlannedArgs),
     /// Make films and reports of a plan's pictures, once all are there
-    #[command(after_help = MERGE_EXAMPLES)]
+    #[command(after_help = plan::MERGE_EXAMPLES)]
     Merge(PlannedArgs),
     /// Render one position
     #[command(after_help = DIAGRAM_EXAMPLES)]
@@ -174,33 +151,6 @@ Examples:
 
 Exit codes: 0 all done; 1 failed; 2 wrong usage; 3 done, but some game was not rendered whole
 (report.jsonl says which); 130 and 143 after Ctrl-C and SIGTERM.";
-
-const PLAN_EXAMPLES: &str = "\
-Examples:
-  lightsquare plan base.pgn --player Kasparov --animate --film mp4 --shards 40 -o plan.jsonl
-  lightsquare render --plan plan.jsonl --shard 0     # and 1, 2, … 39, on any machines, in any order
-  lightsquare verify plan.jsonl                      # what is missing or broken
-  lightsquare merge plan.jsonl                       # films and reports
-
-The standard output says which tasks to start: --array=0-39, as Slurm's sbatch takes it. Paths in the plan begin
-where they began for `plan`, seen from the plan's own folder: keep both where all machines find them.
-cluster/ has scripts for Slurm, a template for Open Job Description and a line for GNU parallel.";
-
-const VERIFY_EXAMPLES: &str = "\
-Example:
-  lightsquare verify plan.jsonl || sbatch $(lightsquare verify plan.jsonl | head -1) array.sh
-
-The first line names the shards to send again, as Slurm's sbatch takes them: --array=2,5-7. The others, with tabs
-between: shard, folder, numbers of pictures, missing or broken.
-
-Exit codes: 0 all pictures are there and whole; 1 failed; 2 wrong usage; 3 some are not.";
-
-const MERGE_EXAMPLES: &str = "\
-Example:
-  lightsquare merge plan.jsonl
-
-Exit codes: 0 all done; 1 failed; 2 wrong usage; 3 pictures are missing, and nothing was written (the standard output
-says which, as verify does), or some game was not rendered whole (report.jsonl says which).";
 
 const DIAGRAM_EXAMPLES: &str = "\
 Examples:
@@ -292,31 +242,6 @@ pub struct RenderArgs {
     /// Which one, counted from 0 [default: SLURM_ARRAY_TASK_ID of the environment]
     #[arg(long, value_name = "N", help_heading = "Many machines", requires = "plan")]
     shard: Option<usize>,
-}
-
-#[derive(Args)]
-pub struct PlanArgs {
-    #[command(flatten)]
-    games: GamesArgs,
-    /// Folder for the pictures, where all machines find it
-    #[arg(long, value_name = "DIR", default_value = "out")]
-    out: PathBuf,
-    /// The plan's file
-    #[arg(short, long, value_name = "FILE", default_value = "plan.jsonl")]
-    pub output: PathBuf,
-    /// How many shards, from 1 to 1000 [default: as many as have some minutes of work each]
-    #[arg(long, value_name = "N", value_parser = shards)]
-    pub shards: Option<usize>,
-}
-
-/// A plan that was made.
-#[derive(Args)]
-pub struct PlannedArgs {
-    /// The plan's file
-    #[arg(value_name = "PLAN")]
-    pub plan: PathBuf,
-    #[command(flatten)]
-    pub threads: ThreadsArgs,
 }
 
 #[derive(Args)]
@@ -437,64 +362,6 @@ impl RenderArgs {
     pub fn into_job(self) -> anyhow::Result<RenderJob> {
         self.games.into_job(self.out, self.no_replace)
     }
-
-    /// The shard of `plan` that is asked for, and the threads that are to render it.
-    pub fn shard(&self, plan: &Plan) -> Result<(usize, &ThreadsArgs), UsageError> {
-        let of_array = || match std::env::var(TASK) {
-            Ok(text) => text.trim().parse().map_err(|_| {
-                UsageError(format!("{TASK}: expected a shard's number, found `{text}`"))
-            }),
-            Err(_) => {
-                let message = format!("--shard: expected a shard's number, and there is no {TASK}");
-                Err(UsageError(message))
-            }
-        };
-        let shard = self.shard.map_or_else(of_array, Ok)?;
-        plan.shard(shard).map_err(|error| UsageError(error.to_string()))?;
-        Ok((shard, &self.games.picture.threads))
-    }
-}
-
-/// Where Slurm tells a task of an array its number.
-const TASK: &str = "SLURM_ARRAY_TASK_ID";
-
-impl PlanArgs {
-    pub fn into_job(self) -> anyhow::Result<RenderJob> {
-        if self.output == Path::new("-") {
-            bail!(UsageError("--output: expected a file, found `-`".to_owned()));
-        }
-        self.games.into_job(self.out, false)
-    }
-}
-
-/// The job that the arguments of a plan stand for, as this machine has it, with as many threads as are asked for here.
-///
-/// # Errors
-/// Arguments of no plan, settings that cannot be read.
-pub fn planned_job(plan: &Plan, threads: &ThreadsArgs) -> anyhow::Result<RenderJob> {
-    let given = ["lightsquare"].into_iter().chain(plan.arguments());
-    let given = Cli::try_parse_from(given).ok().map(|cli| cli.command);
-    let Some(Command::Plan(args)) = given else {
-        bail!("{}: its arguments are those of no plan", plan.name);
-    };
-    let mut job = args.into_job()?;
-    job.picture.threads = threads.cpu.or(job.picture.threads);
-    Ok(job)
-}
-
-/// The arguments that were given, for a plan to keep.
-///
-/// # Errors
-/// When one of them is no text.
-pub fn arguments_to_keep() -> Result<Vec<String>, UsageError> {
-    let given = std::env::args_os().skip(1);
-    let text = |argument: std::ffi::OsString| {
-        argument.into_string().map_err(|argument| {
-            let argument = argument.to_string_lossy().into_owned();
-            UsageError(format!("`{argument}`: cannot be written into a plan, expected UTF-8"))
-        })
-    };
-    given.map(text).collect()
 }
 
 impl DiagramArgs {

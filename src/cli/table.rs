@@ -1,7 +1,7 @@
 //! Measurements as lines for people.
 
 use lightsquare::job::{
-    Estimate, Fault, GameMeasurement, Measurement, Missing, Planned, Verdict, in_bytes,
+    Estimate, Fault, Flaw, GameMeasurement, Measurement, Planned, Verdict, in_bytes,
 };
 use lightsquare::text::printable;
 
@@ -105,14 +105,14 @@ pub fn array(shards: &[usize]) -> String {
 /// What is wrong with the pictures of a plan: the tasks to start again, then a row for each run of pictures.
 pub fn verdict(verdict: &Verdict) -> String {
     let mut lines = array(&verdict.shards());
-    for Fault { shard, folder, first, last, missing } in &verdict.faults {
+    for Fault { shard, folder, first, last, flaw } in &verdict.faults {
         let folder = printable(&folder.to_string_lossy());
         let numbers = if first == last { first.to_string() } else { format!("{first}-{last}") };
-        let missing = match missing {
-            Missing::Missing => "missing",
-            Missing::Broken => "broken",
+        let flaw = match flaw {
+            Flaw::Missing => "missing",
+            Flaw::Broken => "broken",
         };
-        lines += &format!("\n{shard}\t{folder}\t{numbers}\t{missing}");
+        lines += &format!("\n{shard}\t{folder}\t{numbers}\t{flaw}");
     }
     lines
 }

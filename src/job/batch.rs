@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use super::input::Input;
 use super::run::RenderJob;
 use super::{JobError, MAX_FRAMES, Progress, say_missing, say_problems, say_variations};
-use crate::game::{Absent, Game, Problem, Variation, WantedGames};
+use crate::game::{Absent, Game, Problem, Variation, Wanted, WantedGames};
 use crate::notation::Color;
 use crate::output::slug;
 use crate::text::printable;
@@ -21,7 +21,7 @@ pub struct Batch {
     pub input: Input,
     /// Where its pictures go, within the folder of all output.
     pub folder: PathBuf,
-    /// How many of its games are rendered: the first that are wanted.
+    /// At most so many of its games are rendered: the first that are wanted.
     pub games: usize,
     pub frames: u64,
     /// How many games were seen, wanted or not.
@@ -145,17 +145,15 @@ impl Batch {
         script: &Script,
         progress: &dyn Progress,
     ) -> Result<Batch, JobError> {
-        let room = self.games;
-        let batch = self;
-        let file = batch.input.name.clone();
-        let mut entries = batch.entries(job, script)?;
+        let (file, room) = (&self.input.name, self.games);
+        let mut entries = self.entries(job, script)?;
         let (mut games, mut frames) = (0, 0);
         for entry in &mut entries {
             let entry = entry?;
             let Entry { game, part, .. } = &entry;
-            say_problems(&file, game, progress);
+            say_problems(file, game, progress);
             if part.is_some() && job.variations {
-                say_variations(&game.variations, &file, game.number, progress);
+                say_variations(&game.variations, file, game.number, progress);
             }
             games += 1;
             frames += entry.frames();
@@ -164,9 +162,9 @@ impl Batch {
         drop(entries);
         // A single file without any is an error of its own; and one that was not read to its end misses nothing.
         if games < room && (games > 0 || job.inputs.len() > 1) {
-            say_missing(&file, job.wanted.numbers.as_ref(), seen, progress);
+            say_missing(file, job.wanted.numbers.as_ref(), seen, progress);
         }
-        Ok(Batch { games, frames, seen, ..batch })
+        Ok(Batch { games, frames, seen, ..self })
     }
 
     /// The games of the file that are rendered, one after the other.
@@ -178,7 +176,20 @@ impl Batch {
         job: &'a RenderJob,
         script: &'a Script,
     ) -> Result<Entries<'a>, JobError> {
-        let games = self.input.open()?.with_letters(job.letters).wanted(&job.wanted);
+        self.entries_of(job, script, &job.wanted)
+    }
+
+    /// The same, of those games that are wanted here.
+    ///
+    /// # Errors
+    /// Input that cannot be read.
+    pub fn entries_of<'a>(
+        &'a self,
+        job: &'a RenderJob,
+        script: &'a Script,
+        wanted: &'a Wanted,
+    ) -> Result<Entries<'a>, JobError> {
+        let games = self.input.open()?.with_letters(job.letters).wanted(wanted);
         Ok(Entries { job, script, file: &self.input.name, games, left: self.games })
     }
 }

@@ -9,8 +9,7 @@ use rayon::ThreadPool;
 
 use super::batch::{Batch, Entry, game_folder};
 use super::desk::Desk;
-use super::fingerprint::Fingerprints;
-use super::game::Rendered;
+use super::line::Rendered;
 use super::report::{Report, ReportLine, Status, VariationLine};
 use super::run::{RenderJob, Run, Task};
 use super::shared::Shared;
@@ -62,30 +61,15 @@ pub fn with_crew(
 ) -> Result<Summary, JobError> {
     let reach = job.showing.reach(&job.picture.config);
     let mut studios = vec![Studio::new(&job.picture, reach)?];
-    let bodies = studios[0].bodies().clone();
     let pool = job.picture.pool()?;
-    let fingerprints = Fingerprints::new(&job.picture, reach);
-    let shared = Shared::new(fingerprints.clone());
+    let run = Run::new(job, task, studios[0].bodies().clone(), &pool, progress);
+    let shared = Shared::new(run.fingerprints.clone());
     for _ in 1..side_by_side(job, &pool).min(games) {
         studios.push(Studio::new(&job.picture, reach)?);
     }
     if games > 1 {
         studios = studios.into_iter().map(|studio| studio.sharing(&shared)).collect();
     }
-    let names = match task {
-        Task::Whole | Task::Merge => job.names.clone(),
-        Task::Shard(_) | Task::Verify => Some(job.names_of_shards()),
-    };
-    let run = Run {
-        job,
-        script: job.showing.script(&job.picture.config, bodies),
-        progress,
-        pool: &pool,
-        fingerprints,
-        task,
-        names,
-        has_failed: AtomicBool::new(false),
-    };
     let summary = work(&run, &mut studios)?;
     let rays = studios.iter().fold(RayCounts::default(), |sum, studio| sum + studio.rays());
     Ok(Summary { rays, ..summary })
@@ -207,9 +191,7 @@ impl Run<'_> {
             }
             let mut rendered = Rendered::default();
             outcome = match &self.task {
-                Task::Whole | Task::Verify | Task::Merge => {
-                    line.render(self, studio, &mut rendered)
-                }
+                Task::Whole | Task::Merge => line.render(self, studio, &mut rendered),
                 Task::Shard(task) => {
                     let share = task.shard.of(batch.file, game.number, entry.frames());
                     let places = line.places(before, share);
@@ -217,14 +199,14 @@ impl Run<'_> {
                     if places.is_empty() {
                         continue;
                     }
-                    line.render_part(self, task, places, studio, &mut rendered)
+                    line.render_share(self, task, places, studio, &mut rendered)
                 }
             };
             is_whole &= line.game.is_whole();
             if let Some(name) = line.variation {
                 lines.push(VariationLine::new(&line.game, name, rendered.frames));
             }
-            all.add(rendered);
+            all.add(&rendered);
         }
         if self.job.variations {
             let unplayable = entry.unplayable();
@@ -247,8 +229,8 @@ impl Run<'_> {
         let name = game_folder(game);
         let line = ReportLine::new(game, status, all.frames, Some(name)).with(lines);
         let line = match self.task {
-            Task::Shard(_) => line.of_shard(batch, all.pictures),
-            Task::Whole | Task::Verify | Task::Merge => line,
+            Task::Shard(_) => line.of_shard(batch),
+            Task::Whole | Task::Merge => line,
         };
         (line, outcome)
     }

@@ -7,6 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use rayon::{Scope, ThreadPool};
 
 use super::Progress;
+use super::records::Ledger;
 use crate::output::{OutputError, PictureFormat, RepeatedPicture};
 
 /// A picture that is to be written.
@@ -15,6 +16,7 @@ pub struct Sheet {
     pub picture: Arc<RepeatedPicture>,
     /// What it says of itself: keywords and texts.
     pub texts: Vec<(&'static str, String)>,
+    pub fingerprint: String,
 }
 
 /// Where sheets wait until a thread of the pool has nothing to trace.
@@ -22,6 +24,8 @@ pub struct Desk<'a> {
     progress: &'a dyn Progress,
     pool: &'a ThreadPool,
     format: PictureFormat,
+    /// Where those that are written are noted, if that is wanted.
+    ledger: Option<&'a Ledger>,
     /// How many sheets may wait.
     room: usize,
     waiting: AtomicUsize,
@@ -39,11 +43,13 @@ impl<'a> Desk<'a> {
         progress: &'a dyn Progress,
         pool: &'a ThreadPool,
         format: PictureFormat,
+        ledger: Option<&'a Ledger>,
     ) -> Desk<'a> {
         Desk {
             progress,
             pool,
             format,
+            ledger,
             room: Desk::room(pool.current_num_threads()),
             waiting: AtomicUsize::new(0),
             written: AtomicU64::new(0),
@@ -72,8 +78,17 @@ impl<'a> Desk<'a> {
         });
     }
 
-    fn write(&self, Sheet { path, picture, texts }: &Sheet) {
-        match picture.write(path, self.format, texts) {
+    fn write(&self, sheet: &Sheet) {
+        let Sheet { path, picture, texts, fingerprint } = sheet;
+        let written = picture.write(path, self.format, texts).and_then(|()| match self.ledger {
+            Some(ledger) => {
+                let crc32 = picture.crc32(self.format);
+                let crc32 = crc32.map_err(|error| OutputError { path: path.clone(), error })?;
+                ledger.add(path, fingerprint, crc32)
+            }
+            None => Ok(()),
+        });
+        match written {
             Ok(()) => {
                 self.written.fetch_add(1, Ordering::Relaxed);
                 self.progress.frame_done();
@@ -123,14 +138,14 @@ mod tests {
 
     fn sheet(path: PathBuf) -> Sheet {
         let picture = Arc::new(RepeatedPicture::new(DynamicImage::new_rgb8(40, 30)));
-        Sheet { path, picture, texts: Vec::new() }
+        Sheet { path, picture, texts: Vec::new(), fingerprint: String::new() }
     }
 
     /// Hands sheets in on so many threads: what came of it, and the frames that progress was told of.
     fn written(threads: usize, paths: &[PathBuf]) -> (u64, Result<(), OutputError>, u64) {
         let progress = Counter(AtomicU64::new(0));
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        let desk = Desk::new(&progress, &pool, PictureFormat::Png);
+        let desk = Desk::new(&progress, &pool, PictureFormat::Png, None);
         pool.in_place_scope(|scope| {
             for path in paths {
                 desk.take(sheet(path.clone()), scope);

@@ -103,6 +103,9 @@ fn sampled(
             if wanted.contains(&place) {
                 found.push(entry);
             }
+            if wanted.last() == Some(&place) {
+                return Ok(found);
+            }
         }
         before += batch.games;
     }

@@ -49,6 +49,26 @@ impl Input {
     }
 }
 
+/// Hands all bytes of a file on, and gives their number.
+///
+/// # Errors
+/// When it cannot be read.
+pub fn read_through(path: &Path, mut take: impl FnMut(&[u8])) -> io::Result<u64> {
+    let mut file = File::open(path)?;
+    let (mut buffer, mut all) = (vec![0; 1 << 16], 0);
+    loop {
+        match file.read(&mut buffer) {
+            Ok(0) => return Ok(all),
+            Ok(read) => {
+                take(&buffer[..read]);
+                all += read as u64;
+            }
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+            Err(error) => return Err(error),
+        }
+    }
+}
+
 fn failed(name: &str, error: io::Error) -> SourceError {
     SourceError::Io { name: name.to_owned(), error }
 }

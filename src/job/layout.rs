@@ -64,22 +64,24 @@ impl Layout<'_> {
         format: PictureFormat,
     ) -> Traced {
         let progress = run.progress;
-        let desk = Desk::new(progress, run.pool, format);
-        let is_traced = |planned: &&Planned| !planned.is_kept || !reels.is_empty();
+        let desk = Desk::new(progress, run.pool, format, run.ledger());
+        let is_written = |planned: &Planned| !planned.is_kept && planned.row.file().is_some();
+        let is_traced = |planned: &&Planned| is_written(planned) || !reels.is_empty();
         let coming: Vec<usize> =
             self.planned.iter().filter(is_traced).map(|planned| planned.index).collect();
         let mut coming = &coming[..];
         let (mut reached, mut filmed, mut is_cancelled) = (0, 0, false);
         run.pool.in_place_scope(|scope| {
             for planned in &self.planned {
-                let Planned { index, row, is_kept, .. } = planned;
+                let Planned { index, row, .. } = planned;
+                let is_written = is_written(planned);
                 is_cancelled = run.is_over();
                 if is_cancelled || desk.has_failed() {
                     break;
                 }
                 coming = coming.strip_prefix(&[*index]).unwrap_or(coming);
                 let is_filmed = reels.wants(*index);
-                if !is_kept || is_filmed {
+                if is_written || is_filmed {
                     let picture = self.read(run, planned).unwrap_or_else(|| {
                         let frame = self.timeline.frame(*index);
                         let content = self.captions.of(&frame);
@@ -89,13 +91,15 @@ impl Layout<'_> {
                     if is_filmed && !reels.add(&picture) {
                         break;
                     }
-                    if let Some(file) = row.file().filter(|_| !is_kept) {
+                    if let Some(file) = row.file().filter(|_| is_written) {
+                        let fingerprint = row.fingerprint().to_owned();
                         let mut texts = texts(self.game, &self.timeline.frame(*index));
-                        texts.push((FINGERPRINT, row.fingerprint().to_owned()));
-                        desk.take(Sheet { path: self.folder.join(file), picture, texts }, scope);
+                        texts.push((FINGERPRINT, fingerprint.clone()));
+                        let path = self.folder.join(file);
+                        desk.take(Sheet { path, picture, texts, fingerprint }, scope);
                     }
                 }
-                if *is_kept || row.file().is_none() {
+                if !is_written {
                     progress.frame_done();
                 }
                 filmed += u64::from(row.file().is_none());

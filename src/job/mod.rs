@@ -12,11 +12,12 @@ mod diagram;
 mod estimate;
 mod export;
 mod fingerprint;
-mod game;
 mod input;
 mod inspect;
 mod layout;
+mod line;
 mod plan;
+mod records;
 mod reels;
 mod render;
 mod report;
@@ -24,6 +25,7 @@ mod room;
 mod run;
 mod script;
 mod settings;
+mod share;
 mod shared;
 mod shots;
 mod studio;
@@ -37,8 +39,8 @@ pub use estimate::{Estimate, estimate};
 pub use export::{ExportJob, export};
 pub use inspect::{InspectJob, Listing, inspect};
 pub use plan::{
-    Fault, MOST_SHARDS, Merged, Missing, Plan, PlanError, Planned, Verdict, merge, plan,
-    render_shard, verify,
+    Fault, Flaw, MOST_SHARDS, Merged, Plan, PlanError, Planned, Verdict, merge, plan, render_shard,
+    verify,
 };
 pub use render::render;
 pub use run::{Films, RenderJob};
@@ -92,7 +94,7 @@ pub enum JobError {
     #[error(transparent)]
     Lock(#[from] LockError),
     #[error(
-        "{}: is of another run, with other settings or another game, and nothing is to be replaced; expected another --out",
+        "{}: is of another run or plan, with other settings or another game, and is not to be replaced; expected another --out",
         shown(path)
     )]
     WouldReplace { path: PathBuf },

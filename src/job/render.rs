@@ -1,13 +1,13 @@
 //! Whole games, as numbered pictures and films in folders.
 
 use std::fs;
-use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use super::batch::{Batch, Entry, folder_names};
 use super::crew::{Summary, with_crew};
 use super::input::Input;
-use super::plan::{PlanError, has_shards};
+use super::plan::PlanError;
+use super::records::has_shards;
 use super::report::Report;
 use super::room::check_room;
 use super::run::{RenderJob, Run, Task};
@@ -31,10 +31,11 @@ pub fn render(job: &RenderJob, progress: &dyn Progress) -> Result<Summary, JobEr
         return Err(PlanError::NotMerged { folder }.into());
     }
     let batches = survey(job, progress)?;
-    render_batches(job, &batches, Task::Whole, progress)
+    render_batches(job, &batches, Task::Whole, progress, |_| Ok(()))
 }
 
-/// Renders what is wanted of files that were looked through, as [`render`] does.
+/// Renders what is wanted of files that were looked through, as [`render`] does; then does what is to be done `at_end`,
+/// while nobody else may write there.
 ///
 /// # Errors
 /// As for [`render`].
@@ -43,13 +44,12 @@ pub fn render_batches(
     batches: &[Batch],
     task: Task,
     progress: &dyn Progress,
+    at_end: impl FnOnce(&Summary) -> Result<(), JobError>,
 ) -> Result<Summary, JobError> {
     say_films(job, progress);
     let games = batches.iter().map(|batch| batch.games).sum();
     with_crew(job, task, games, progress, |run, studios| {
-        for batch in batches {
-            keep_out(job, &job.out.join(&batch.folder))?;
-        }
+        keep_out(job, batches)?;
         let frames = batches.iter().map(|batch| batch.frames).sum();
         check_room(job, frames)?;
         // From here on a signal ends the run in an orderly way.
@@ -76,6 +76,7 @@ pub fn render_batches(
             outcome?;
             written?;
         }
+        at_end(&summary)?;
         Ok(summary)
     })
 }
@@ -128,22 +129,25 @@ fn say_films(job: &RenderJob, progress: &dyn Progress) {
     }
 }
 
-/// Refuses to write into a folder that holds what is read: a game, the settings, a picture, a set.
+/// Refuses to write into folders that hold what is read: a game, the settings, a picture, a set.
 ///
 /// # Errors
-/// When it does.
-pub fn keep_out(job: &RenderJob, folder: &Path) -> Result<(), JobError> {
-    let Ok(folder) = fs::canonicalize(folder) else {
-        return Ok(());
-    };
+/// When they do.
+pub fn keep_out<'a>(
+    job: &RenderJob,
+    batches: impl IntoIterator<Item = &'a Batch>,
+) -> Result<(), JobError> {
     let of_pictures = job.picture.inputs();
-    let mut inputs = job.inputs.iter().chain(&of_pictures);
-    let lies_within =
-        |input: &&PathBuf| fs::canonicalize(input).is_ok_and(|input| input.starts_with(&folder));
-    match inputs.find(lies_within) {
-        Some(input) => Err(JobError::InputInOutput { path: input.clone() }),
-        None => Ok(()),
+    let inputs = job.inputs.iter().chain(&of_pictures);
+    let inputs: Vec<_> =
+        inputs.filter_map(|input| Some((fs::canonicalize(input).ok()?, input))).collect();
+    for batch in batches {
+        let Ok(folder) = fs::canonicalize(job.out.join(&batch.folder)) else { continue };
+        if let Some((_, input)) = inputs.iter().find(|(place, _)| place.starts_with(&folder)) {
+            return Err(JobError::InputInOutput { path: (*input).clone() });
+        }
     }
+    Ok(())
 }
 
 impl Run<'_> {

@@ -7,7 +7,6 @@ use serde::Serialize;
 use serde_json::{Map, Value};
 
 use super::batch::Batch;
-use super::plan::Sum;
 use super::settings::SettingsRecord;
 use crate::game::{Game, Problem, Variation};
 use crate::notation::Color;
@@ -97,9 +96,6 @@ pub struct ReportLine {
     /// Those that were rendered with it.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     variations: Vec<VariationLine>,
-    /// In the report of a shard, those that do not tell what they are.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pictures: Vec<Sum>,
 }
 
 /// A variation in the line of its game.
@@ -146,7 +142,6 @@ impl ReportLine {
             folder,
             problems: game.problems.clone(),
             variations: Vec::new(),
-            pictures: Vec::new(),
         }
     }
 
@@ -156,10 +151,10 @@ impl ReportLine {
     }
 
     /// This line in the report of a shard, of a game in `batch`.
-    pub fn of_shard(self, batch: &Batch, pictures: Vec<Sum>) -> ReportLine {
+    pub fn of_shard(self, batch: &Batch) -> ReportLine {
         let file = Some(batch.input.name.clone());
         let folder = self.folder.map(|name| batch.folder.join(name).to_string_lossy().into_owned());
-        ReportLine { file, folder, pictures, ..self }
+        ReportLine { file, folder, ..self }
     }
 }
 

@@ -7,12 +7,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use rayon::ThreadPool;
 
 use super::fingerprint::Fingerprints;
-use super::plan::{Shard, Sums};
+use super::records::{Ledger, Sums};
 use super::settings::PictureSettings;
+use super::share::Shard;
 use super::{Progress, Showing};
 use crate::game::{Letters, Moment, Wanted};
 use crate::output::{Ffmpeg, FilmFormat, FrameNames, PictureFormat};
-use crate::timeline::Script;
+use crate::timeline::{Bodies, Script};
 
 /// Which games to render, how, and where to.
 #[derive(Clone, Debug)]
@@ -42,6 +43,11 @@ pub struct RenderJob {
 }
 
 impl RenderJob {
+    /// Whether MP4 is wanted, and ffmpeg makes it.
+    pub fn is_by_ffmpeg(&self) -> bool {
+        self.films.formats.contains(&FilmFormat::Mp4) && self.films.ffmpeg.is_some()
+    }
+
     /// The format of its pictures.
     pub fn format(&self) -> PictureFormat {
         self.names.as_ref().map_or(PictureFormat::Png, FrameNames::format)
@@ -65,8 +71,6 @@ pub struct Films {
 pub enum Task {
     /// All that is not there yet.
     Whole,
-    /// Nothing: it is looked at what shards have done.
-    Verify,
     /// All but pictures: they are there, and as they should be. Those that only films want go.
     Merge,
     /// The pictures of a shard.
@@ -76,8 +80,10 @@ pub enum Task {
 /// A shard under way.
 pub struct ShardTask {
     pub shard: Shard,
-    /// What an earlier run of the shard has told of its pictures.
+    /// What earlier runs of the shard have told of its pictures.
     pub sums: Sums,
+    /// Where this one tells it.
+    pub ledger: Ledger,
 }
 
 /// A job under way.
@@ -94,9 +100,42 @@ pub struct Run<'a> {
     pub has_failed: AtomicBool,
 }
 
-impl Run<'_> {
+impl<'a> Run<'a> {
+    /// A job whose pieces and board take such room, on the threads of `pool`.
+    pub fn new(
+        job: &'a RenderJob,
+        task: Task,
+        bodies: Bodies,
+        pool: &'a ThreadPool,
+        progress: &'a dyn Progress,
+    ) -> Run<'a> {
+        let reach = job.showing.reach(&job.picture.config);
+        let names = match task {
+            Task::Whole | Task::Merge => job.names.clone(),
+            Task::Shard(_) => Some(job.names_of_shards()),
+        };
+        Run {
+            job,
+            script: job.showing.script(&job.picture.config, bodies),
+            progress,
+            pool,
+            fingerprints: Fingerprints::new(&job.picture, reach),
+            task,
+            names,
+            has_failed: AtomicBool::new(false),
+        }
+    }
+
     /// Whether no more is to be rendered.
     pub fn is_over(&self) -> bool {
         self.progress.is_cancelled() || self.has_failed.load(Ordering::Relaxed)
+    }
+
+    /// Where a picture is noted that does not tell itself what it is.
+    pub fn ledger(&self) -> Option<&Ledger> {
+        match &self.task {
+            Task::Shard(task) if !self.job.format().is_sealed() => Some(&task.ledger),
+            _ => None,
+        }
     }
 }

@@ -71,15 +71,26 @@ pub(super) fn keep_inputs(
     settings: &PictureSettings,
     output: &Path,
 ) -> Result<(), JobError> {
-    let game = match subject {
-        Subject::Game { file, .. } => Some(file),
-        Subject::Placement { .. } => None,
-    };
-    let of_pictures = settings.inputs();
-    let mut inputs = game.into_iter().chain(&of_pictures);
+    match subject {
+        Subject::Game { file, .. } => keep_files([file], settings, output),
+        Subject::Placement { .. } => keep_files([], settings, output),
+    }
+}
+
+/// Refuses to write over files of `games`, or what is read for pictures.
+pub(super) fn keep_files<'a>(
+    games: impl IntoIterator<Item = &'a PathBuf>,
+    settings: &PictureSettings,
+    output: &Path,
+) -> Result<(), JobError> {
     let place = |path: &Path| fs::canonicalize(path).ok();
+    let of_pictures = settings.inputs();
     let target = place(output);
-    if target.is_some() && inputs.any(|input| place(input) == target) {
+    let mut inputs = games.into_iter().map(PathBuf::as_path);
+    let is_target = |input: &Path| place(input) == target;
+    if target.is_some()
+        && (inputs.any(is_target) || of_pictures.iter().any(|input| is_target(input)))
+    {
         return Err(JobError::OutputIsInput { path: output.to_owned() });
     }
     Ok(())

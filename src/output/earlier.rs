@@ -1,7 +1,8 @@
 //! What an earlier run has left in a game's folder: what of it can stay, and what has to go.
 //!
 //! A manifest is written before the pictures that it names, and pictures that are to be others are removed before that. So
-//! whenever a run is ended, by whatever means, a picture is as some manifest's row says, or not there.
+//! whenever a run is ended, by whatever means, a picture is as some manifest's row says, or not there. (Shards write
+//! before there is a manifest; what they have written tells of itself, or their records do.)
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -69,9 +70,15 @@ impl Earlier {
         self.files.get(file).and_then(Option::as_deref) == Some(fingerprint)
     }
 
-    /// Whether the picture `file` was made to be something else than what has that fingerprint.
-    pub fn has_other(&self, file: &str, fingerprint: &str) -> bool {
-        self.files.get(file).and_then(Option::as_deref).is_some_and(|known| known != fingerprint)
+    /// Whether anything is said of the whole.
+    pub fn is_told(&self) -> bool {
+        self.fingerprint.is_some()
+    }
+
+    /// Whether something else is said of the whole than that it has that fingerprint, and some of these films.
+    pub fn is_other(&self, fingerprint: &str, films: &[String]) -> bool {
+        self.fingerprint.as_deref().is_some_and(|known| known != fingerprint)
+            || self.films.iter().any(|film| !films.contains(film))
     }
 
     /// Whether there is the film `file` of what has that fingerprint.

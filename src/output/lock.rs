@@ -3,6 +3,8 @@
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
+use std::thread;
+use std::time::{Duration, Instant};
 
 use super::OutputError;
 use crate::text::shown;
@@ -12,9 +14,13 @@ use crate::text::shown;
 #[derive(Debug)]
 pub struct FolderLock {
     path: PathBuf,
+    is_shared: bool,
     /// `None` where the file system knows no locks.
     file: Option<File>,
 }
+
+/// How long those who share a folder wait for it.
+const PATIENCE: Duration = Duration::from_secs(1);
 
 /// Why a folder cannot be had.
 #[derive(Debug, thiserror::Error)]
@@ -38,7 +44,7 @@ impl FolderLock {
     /// # Errors
     /// When another process has it, or the file cannot be made.
     pub fn take(folder: &Path) -> Result<FolderLock, LockError> {
-        FolderLock::hold(folder, File::try_lock)
+        FolderLock::hold(folder, false)
     }
 
     /// Takes hold of `folder` as [`FolderLock::take`] does, together with others who share it.
@@ -46,19 +52,22 @@ impl FolderLock {
     /// # Errors
     /// As for [`FolderLock::take`].
     pub fn share(folder: &Path) -> Result<FolderLock, LockError> {
-        FolderLock::hold(folder, File::try_lock_shared)
+        FolderLock::hold(folder, true)
     }
 
-    fn hold(
-        folder: &Path,
-        lock: fn(&File) -> Result<(), TryLockError>,
-    ) -> Result<FolderLock, LockError> {
+    fn hold(folder: &Path, is_shared: bool) -> Result<FolderLock, LockError> {
         let path = folder.join(".lock");
         let failed = |error| OutputError { path: path.clone(), error };
+        let begun = Instant::now();
         loop {
             let mut file = open(&path).map_err(failed)?;
-            match lock(&file) {
+            match if is_shared { file.try_lock_shared() } else { file.try_lock() } {
                 Ok(()) => {}
+                // The last of those who share it may just be looking whether it is the last.
+                Err(TryLockError::WouldBlock) if is_shared && begun.elapsed() < PATIENCE => {
+                    thread::sleep(PATIENCE / 20);
+                    continue;
+                }
                 Err(TryLockError::WouldBlock) => {
                     let mut text = String::new();
                     // Whoever has it may just be writing its number.
@@ -67,7 +76,9 @@ impl FolderLock {
                     return Err(LockError::Held { folder: folder.to_owned(), process });
                 }
                 // Some file systems of networks have no locks; pictures are written there all the same.
-                Err(TryLockError::Error(_)) => return Ok(FolderLock { path, file: None }),
+                Err(TryLockError::Error(_)) => {
+                    return Ok(FolderLock { path, is_shared, file: None });
+                }
             }
             // Between the two steps the one before may have taken its file away.
             if !is_at(&file, &path) {
@@ -75,7 +86,7 @@ impl FolderLock {
             }
             file.set_len(0).map_err(failed)?;
             writeln!(file, "{}", std::process::id()).map_err(failed)?;
-            return Ok(FolderLock { path, file: Some(file) });
+            return Ok(FolderLock { path, is_shared, file: Some(file) });
         }
     }
 }
@@ -83,8 +94,8 @@ impl FolderLock {
 impl Drop for FolderLock {
     fn drop(&mut self) {
         // Whoever shares the folder still needs the file; the last one has it alone.
-        let is_last = |file: &File| file.try_lock().is_ok() && is_at(file, &self.path);
-        if self.file.as_ref().is_some_and(is_last) {
+        let is_alone = |file: &File| !self.is_shared || file.try_lock().is_ok();
+        if self.file.as_ref().is_some_and(|file| is_alone(file) && is_at(file, &self.path)) {
             // One that stays does not block.
             let _ = fs::remove_file(&self.path);
         }
@@ -142,6 +153,7 @@ mod tests {
         let alone = FolderLock::take(folder.path()).unwrap();
         assert!(FolderLock::share(folder.path()).is_err());
         drop(alone);
+        assert!(fs::read_dir(folder.path()).unwrap().next().is_none());
     }
 
     #[test]

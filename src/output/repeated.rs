@@ -54,13 +54,26 @@ impl RepeatedPicture {
     /// # Errors
     /// When it cannot be encoded.
     pub fn bytes(&self, format: PictureFormat) -> io::Result<usize> {
+        self.of_file(format, <[u8]>::len)
+    }
+
+    /// The CRC-32 of its file, without texts.
+    ///
+    /// # Errors
+    /// When it cannot be encoded.
+    pub fn crc32(&self, format: PictureFormat) -> io::Result<u32> {
+        self.of_file(format, crc32fast::hash)
+    }
+
+    /// What `tell` says of its file without texts.
+    fn of_file<T>(&self, format: PictureFormat, tell: impl FnOnce(&[u8]) -> T) -> io::Result<T> {
         match &*self.made(format)? {
             Made::Png(packed) => {
                 let mut file = Vec::new();
                 packed.write(&[], None, &mut file)?;
-                Ok(file.len())
+                Ok(tell(&file))
             }
-            Made::Other(bytes) => Ok(bytes.len()),
+            Made::Other(bytes) => Ok(tell(bytes)),
         }
     }
 

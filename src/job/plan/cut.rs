@@ -43,15 +43,16 @@ impl Cutter {
                 break;
             }
             self.next += 1;
-            let near = |distance: u64| [even.checked_sub(distance), Some(even + distance)];
-            let in_line = |at: &u64| line.contains(at);
-            let found = |seam, is_seam: &dyn Fn(&u64) -> bool| {
-                let at = (0..=room).flat_map(near).flatten().find(is_seam);
-                at.map(|at| (at, seam))
+            let is_near = |at: &u64| at.abs_diff(even) <= room && *at < self.frames;
+            let ends = [line.start, line.end].into_iter().filter(is_near);
+            let end = ends.min_by_key(|at| at.abs_diff(even)).map(|at| (at, Seam::Line));
+            let position = || {
+                let near = |distance| [even.checked_sub(distance), Some(even + distance)];
+                let near = (0..=room).flat_map(near).flatten();
+                let mut near = near.filter(|at| line.contains(at) && stands(*at));
+                near.next().map(|at| (at, Seam::Position))
             };
-            let is_end = |at: u64| at == line.start || at == line.end && at < self.frames;
-            let cut = found(Seam::Line, &|at| is_end(*at))
-                .or_else(|| found(Seam::Position, &|at| in_line(at) && stands(*at)));
+            let cut = end.or_else(position);
             cuts.push(cut.unwrap_or((even, Seam::Frame)));
         }
         cuts

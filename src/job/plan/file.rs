@@ -1,16 +1,16 @@
 //! The plan's file.
 
-use std::cmp::Ordering;
 use std::fs;
 use std::io::{self, Write};
-use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 
+use super::error::PlanError;
 use crate::job::fingerprint::PICTURES;
+use crate::job::share::{Place, Shard};
 use crate::output::{OutputError, write_together};
 use crate::text::{printable, shown};
 
@@ -31,16 +31,18 @@ pub struct Plan {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Head {
     /// The version of the file.
-    plan: u32,
+    pub plan: u32,
     /// The version of the program, and of its pictures.
-    lightsquare: String,
-    pictures: u32,
+    pub lightsquare: String,
+    pub pictures: u32,
     /// Of all else that is in the file.
     pub id: String,
     /// From the plan's folder to the one where paths begin that are not absolute.
     pub folder: String,
     /// The command line that made the plan: what is rendered, and how.
     pub arguments: Vec<String>,
+    /// Whether films in MP4 are wanted, and ffmpeg makes them.
+    pub is_by_ffmpeg: bool,
     /// The fingerprint of all settings of pictures, and of what is in the files that they name.
     pub settings: String,
     pub inputs: Vec<PlannedInput>,
@@ -62,17 +64,6 @@ pub(super) struct PlannedInput {
     pub frames: u64,
 }
 
-/// A frame of all that a plan renders.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-pub struct Place {
-    /// The file, counted from 0 in the order of the head.
-    pub file: usize,
-    /// The game's number in it.
-    pub game: usize,
-    /// Counted from 0 over the game and its variations.
-    pub frame: u64,
-}
-
 /// A line of a shard.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct ShardLine {
@@ -83,104 +74,32 @@ pub(super) struct ShardLine {
     pub begin: Place,
 }
 
-/// A part of the work.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Shard {
-    pub number: usize,
-    pub frames: u64,
-    pub begin: Place,
-    /// Behind its last frame.
-    pub end: Place,
-}
-
-/// Why a plan cannot be used.
-#[derive(Debug, thiserror::Error)]
-pub enum PlanError {
-    #[error("{name}: cannot be read")]
-    Io {
-        name: String,
-        #[source]
-        error: io::Error,
-    },
-    #[error("{name}: is no plan of lightsquare, expected a file that `lightsquare plan` has made")]
-    NoPlan { name: String },
-    #[error(
-        "{name}: was made by lightsquare {theirs}, and this is {ours}; expected the same version, or a new plan"
-    )]
-    OtherVersion { name: String, theirs: String, ours: String },
-    #[error("{name}: is cut short, it has {found} of {expected} shards; expected the whole file")]
-    CutShort { name: String, found: usize, expected: usize },
-    #[error("{name}: line {line}: was changed, or is damaged; expected the file as it was made")]
-    Damaged { name: String, line: usize },
-    #[error("{name}: there is no shard {shard}, it has {}", match shards {
-        1 => "shard 0 alone".to_owned(),
-        _ => format!("shards 0 to {}", shards - 1),
-    })]
-    NoSuchShard { name: String, shard: usize, shards: usize },
-    #[error("{input}: is not there, and {name} was made with it")]
-    Missing { name: String, input: String },
-    #[error("{input}: has changed since {name} was made; expected the same file, or a new plan")]
-    Changed { name: String, input: String },
-    #[error(
-        "{name}: the settings of pictures (config.ini, a chess set, bitmaps) have changed since it was made; \
-         expected the same ones, or a new plan"
-    )]
-    OtherSettings { name: String },
-    #[error(
-        "{}: holds shards of another plan ({theirs}, this is {ours}); expected another --out, or that folder removed",
-        shown(folder)
-    )]
-    OtherPlan { folder: PathBuf, theirs: String, ours: String },
-    #[error(
-        "{}: is of another plan or run, with other settings or another game; expected another --out",
-        shown(path)
-    )]
-    WouldReplace { path: PathBuf },
-    #[error(
-        "{}: has shards of a plan that are not merged; expected `lightsquare merge` first, or another --out",
-        shown(folder)
-    )]
-    NotMerged { folder: PathBuf },
-    #[error("{0}: a plan's games are read by every shard, expected files")]
-    Stream(String),
-    #[error("{0}: has a name that cannot be written into a plan, expected UTF-8")]
-    Name(String),
-    #[error("{name}: does not fit its games, {found} frames instead of {expected}")]
-    Misfit { name: String, found: u64, expected: u64 },
-}
-
 fn version(lightsquare: &str, pictures: u32) -> String {
     format!("{lightsquare} (pictures {pictures})")
 }
 
-impl Head {
-    /// The head of a plan by this program, without an id.
-    pub fn new(
-        folder: String,
-        arguments: Vec<String>,
-        settings: String,
-        inputs: Vec<PlannedInput>,
-        shards: usize,
-        end: Place,
-    ) -> Head {
+impl Default for Head {
+    /// The head of a plan by this program, of nothing yet.
+    fn default() -> Head {
         Head {
             plan: FORMAT,
             lightsquare: env!("CARGO_PKG_VERSION").to_owned(),
             pictures: PICTURES,
             id: String::new(),
-            folder,
-            arguments,
-            settings,
-            frames: inputs.iter().map(|input| input.frames).sum(),
-            inputs,
-            shards,
-            end,
+            folder: String::new(),
+            arguments: Vec::new(),
+            is_by_ffmpeg: false,
+            settings: String::new(),
+            inputs: Vec::new(),
+            frames: 0,
+            shards: 0,
+            end: Place::default(),
         }
     }
 }
 
 impl Plan {
-    /// A plan whose shards begin at `begins`, each after so many frames.
+    /// A plan whose shards begin at `begins`, each after so many frames of all.
     pub(super) fn new(path: &Path, head: Head, begins: &[(u64, Place)]) -> io::Result<Plan> {
         let ends = begins.iter().skip(1).map(|(at, _)| *at).chain([head.frames]);
         let shards = begins.iter().zip(ends).enumerate();
@@ -290,35 +209,13 @@ impl Plan {
         self.head.arguments.iter().map(String::as_str)
     }
 
-    /// The folder where paths begin that are not absolute, for a plan that lies at `path`.
-    pub fn folder(&self, path: &Path) -> PathBuf {
-        path.parent().unwrap_or(Path::new("")).join(&self.head.folder)
-    }
-}
-
-impl Shard {
-    /// Which frames of a game it has, of so many that there are in the game and its variations.
-    pub fn of(&self, file: usize, game: usize, frames: u64) -> Range<u64> {
-        let at = |place: Place| match (place.file, place.game).cmp(&(file, game)) {
-            Ordering::Less => 0,
-            Ordering::Equal => place.frame.min(frames),
-            Ordering::Greater => frames,
-        };
-        at(self.begin)..at(self.end)
-    }
-
-    /// The numbers of the games of a file that it may have frames of.
-    pub fn games(&self, file: usize) -> Range<usize> {
-        let first = match self.begin.file.cmp(&file) {
-            Ordering::Less => 1,
-            Ordering::Equal => self.begin.game,
-            Ordering::Greater => return 0..0,
-        };
-        match self.end.file.cmp(&file) {
-            Ordering::Less => 0..0,
-            Ordering::Equal => first..self.end.game + 1,
-            Ordering::Greater => first..usize::MAX,
-        }
+    /// The folder where paths begin that are not absolute, for a plan that was read from `path`.
+    ///
+    /// # Errors
+    /// When nothing is there any more.
+    pub fn folder(&self, path: &Path) -> io::Result<PathBuf> {
+        let path = fs::canonicalize(path)?;
+        Ok(path.parent().unwrap_or(Path::new("")).join(&self.head.folder))
     }
 }
 
@@ -339,14 +236,7 @@ mod tests {
             frames,
         };
         let inputs = vec![input("a.pgn", 10), input("b.pgn", 20)];
-        let head = Head::new(
-            "..".to_owned(),
-            vec!["plan".to_owned()],
-            "5".to_owned(),
-            inputs,
-            3,
-            place(1, 1, 20),
-        );
+        let head = Head { inputs, frames: 30, shards: 3, end: place(1, 1, 20), ..Head::default() };
         let begins = [(0, place(0, 1, 0)), (8, place(0, 3, 2)), (10, place(1, 1, 0))];
         Plan::new(Path::new("plan.jsonl"), head, &begins).unwrap()
     }
@@ -361,7 +251,7 @@ mod tests {
             let mut all: Vec<u64> = Vec::new();
             for shard in &shards {
                 let range = shard.of(file, game, frames);
-                assert!(range.is_empty() || shard.games(file).contains(&game));
+                assert_eq!(!range.is_empty(), shard.games(file).contains(&game));
                 for frame in range {
                     assert_eq!(plan.shard_of(place(file, game, frame)), shard.number);
                     all.push(frame);

@@ -2,22 +2,26 @@
 
 use std::cell::LazyCell;
 use std::env;
-use std::fs::{self, File};
+use std::fs;
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
 use super::cut::{Cutter, Seam};
-use super::file::{Head, Place, Plan, PlanError, PlannedInput};
-use super::records::has_shards;
+use super::error::PlanError;
+use super::file::{Head, Plan, PlannedInput};
 use crate::job::batch::{Batch, Entry};
 use crate::job::estimate::measure;
 use crate::job::fingerprint::Fingerprints;
+use crate::job::input::read_through;
+use crate::job::records::has_shards;
 use crate::job::render::{keep_out, survey};
 use crate::job::room::check_room;
 use crate::job::run::RenderJob;
+use crate::job::share::Place;
 use crate::job::studio::bodies;
+use crate::job::subject::keep_files;
 use crate::job::{Estimate, JobError, Progress};
 use crate::output::{OutputError, prepare_file};
 use crate::text::shown;
@@ -58,22 +62,20 @@ pub fn plan(
     shards: Option<usize>,
     progress: &dyn Progress,
 ) -> Result<Planned, JobError> {
-    let is_file = |input: &&PathBuf| fs::metadata(input).is_ok_and(|data| !data.is_file());
-    let is_stream =
-        |input: &&PathBuf| *input == Path::new("-") || is_file(input) && !input.is_dir();
+    // Neither the standard input nor a pipe can be read again; of what is not there or a folder, reading tells.
+    let is_stream = |input: &&PathBuf| {
+        let is_other = |data: fs::Metadata| !data.is_file() && !data.is_dir();
+        *input == Path::new("-") || fs::metadata(input).is_ok_and(is_other)
+    };
     if let Some(stream) = job.inputs.iter().find(is_stream) {
         return Err(PlanError::Stream(shown(stream)).into());
     }
-    let place = |path: &Path| fs::canonicalize(path).ok();
-    let target = place(output);
-    if target.is_some() && job.inputs.iter().any(|input| place(input) == target) {
-        return Err(JobError::OutputIsInput { path: output.to_owned() });
-    }
+    keep_files(&job.inputs, &job.picture, output)?;
     if let Some(folder) = has_shards(&job.out) {
         return Err(PlanError::NotMerged { folder }.into());
     }
     let batches = survey(job, progress)?;
-    batches.iter().try_for_each(|batch| keep_out(job, &job.out.join(&batch.folder)))?;
+    keep_out(job, &batches)?;
     check_room(job, batches.iter().map(|batch| batch.frames).sum())?;
     let estimate = measure(job, &batches)?;
     let suits = (estimate.seconds / SHARE).ceil().clamp(1.0, MOST_SHARDS as f64) as usize;
@@ -92,7 +94,17 @@ pub fn plan(
     prepare_file(output)?;
     let folder = way(output).map_err(failed)?;
     let folder = folder.to_str().ok_or_else(|| PlanError::Name(shown(&folder)))?.to_owned();
-    let head = Head::new(folder, arguments, settings, inputs, shards, end);
+    let head = Head {
+        folder,
+        arguments,
+        is_by_ffmpeg: job.is_by_ffmpeg(),
+        settings,
+        inputs,
+        frames: estimate.frames,
+        shards,
+        end,
+        ..Head::default()
+    };
     let plan = Plan::new(output, head, &begins).map_err(failed)?;
     plan.write(output)?;
 
@@ -126,19 +138,9 @@ fn input(path: &Path) -> Result<PlannedInput, JobError> {
 
 /// The number of bytes of a file, and their hash.
 pub(super) fn hashed(path: &Path) -> io::Result<(u64, String)> {
-    struct Hash(Sha256);
-    impl io::Write for Hash {
-        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-            self.0.update(bytes);
-            Ok(bytes.len())
-        }
-        fn flush(&mut self) -> io::Result<()> {
-            Ok(())
-        }
-    }
-    let mut hash = Hash(Sha256::new());
-    let bytes = io::copy(&mut File::open(path)?, &mut hash)?;
-    let text = hash.0.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
+    let mut hash = Sha256::new();
+    let bytes = read_through(path, |bytes| hash.update(bytes))?;
+    let text = hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
     Ok((bytes, text))
 }
 
@@ -194,6 +196,8 @@ fn cut(
             }
         }
     }
+    // Of games that cannot be shown there is nothing to cut, and yet a report.
+    found.begins.resize(shards, (frames, found.end));
     Ok(found)
 }
 

@@ -1,10 +1,10 @@
 //! What shards have rendered, as one machine would have left it.
 
-use super::check::batches;
+use super::check::{batches, check};
 use super::file::Plan;
-use super::records::Records;
 use super::verify::{Verdict, verify};
 use crate::job::crew::Summary;
+use crate::job::records::Records;
 use crate::job::render::render_batches;
 use crate::job::run::{RenderJob, Task};
 use crate::job::{JobError, Progress};
@@ -24,6 +24,7 @@ pub enum Merged {
 /// # Errors
 /// Those of [`verify`], and of rendering.
 pub fn merge(plan: &Plan, job: &RenderJob, progress: &dyn Progress) -> Result<Merged, JobError> {
+    check(plan, job, 0..0, true)?;
     let verdict = verify(plan, job, progress)?;
     if verdict.cancelled {
         return Ok(Merged::Done(Summary { cancelled: true, ..Summary::default() }));
@@ -31,9 +32,11 @@ pub fn merge(plan: &Plan, job: &RenderJob, progress: &dyn Progress) -> Result<Me
     if !verdict.faults.is_empty() {
         return Ok(Merged::Incomplete(verdict));
     }
-    let summary = render_batches(job, &batches(plan, job)?, Task::Merge, progress)?;
-    if !summary.cancelled {
-        Records::new(&job.out, &plan.head.id).remove()?;
-    }
+    let batches = batches(plan, job)?;
+    let summary =
+        render_batches(job, &batches, Task::Merge, progress, |summary| match summary.cancelled {
+            true => Ok(()),
+            false => Ok(Records::new(&job.out, &plan.head.id).remove()?),
+        })?;
     Ok(Merged::Done(summary))
 }

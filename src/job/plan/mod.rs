@@ -7,17 +7,17 @@
 
 mod check;
 mod cut;
+mod error;
 mod file;
 mod make;
 mod merge;
 mod part;
-mod records;
 mod shard;
 mod verify;
 
-pub use file::{Plan, PlanError, Shard};
+pub use error::PlanError;
+pub use file::Plan;
 pub use make::{MOST_SHARDS, Planned, plan};
 pub use merge::{Merged, merge};
-pub use records::{Sum, Sums, has_shards};
 pub use shard::render_shard;
-pub use verify::{Fault, Missing, Verdict, verify};
+pub use verify::{Fault, Flaw, Verdict, verify};

@@ -5,65 +5,48 @@
 
 use std::ops::Range;
 use std::path::Path;
+use std::sync::OnceLock;
 
-use super::file::PlanError;
-use super::records::{Sum, Sums};
 use crate::job::JobError;
-use crate::job::game::{Line, Rendered};
+use crate::job::line::{Line, Rendered};
+use crate::job::records::Sums;
 use crate::job::reels::Reels;
 use crate::job::report::FrameRow;
 use crate::job::run::{RenderJob, Run, ShardTask};
 use crate::job::studio::Studio;
-use crate::output::{Earlier, OutputError, is_whole, prepare_inside};
+use crate::output::{Earlier, is_whole, prepare_inside};
 
 /// Who tells which pictures of a folder are what they should be.
 pub struct Witness<'a> {
     job: &'a RenderJob,
     /// The folder within that of all output.
     inside: &'a Path,
-    /// What manifests say, once there are some.
-    earlier: Earlier,
-    /// What a shard's report says.
+    /// What its shard has told.
     sums: &'a Sums,
+    /// What manifests say, once there are some and somebody asks.
+    earlier: OnceLock<Earlier>,
 }
 
 impl<'a> Witness<'a> {
     pub fn new(job: &'a RenderJob, inside: &'a Path, sums: &'a Sums) -> Witness<'a> {
-        let earlier = Earlier::read(&job.out.join(inside), None);
-        Witness { job, inside, earlier, sums }
+        Witness { job, inside, sums, earlier: OnceLock::new() }
     }
 
-    /// Whether the picture of `row` is there, is whole, and somebody tells that it is the right one: itself, its shard's
-    /// report, or a manifest.
+    /// Whether the picture of `row` is there, is whole, and somebody tells that it is the right one: itself, its shard, or a
+    /// manifest.
     pub fn vouches(&self, row: &FrameRow) -> bool {
         let Some(file) = row.file() else { return false };
-        let inside = self.inside.join(file);
+        let (out, inside, fingerprint) = (&self.job.out, self.inside.join(file), row.fingerprint());
         let format = self.job.format();
-        let is_whole = || is_whole(&self.job.out.join(&inside), format, row.fingerprint());
+        let is_whole = || is_whole(&out.join(&inside), format, fingerprint);
         if format.is_sealed() {
             return is_whole();
         }
-        match self.sums.get(&*inside.to_string_lossy()) {
-            Some(told) => {
-                Sum::of(&self.job.out, &inside, row.fingerprint()).is_ok_and(|sum| sum == *told)
-            }
-            None => self.earlier.has_frame(file, row.fingerprint()) && is_whole(),
+        if let Some(told) = self.sums.get(&*inside.to_string_lossy()) {
+            return told.holds(out, fingerprint);
         }
-    }
-
-    /// Refuses to replace a picture of which a manifest says that it is another one.
-    fn refuse_others<'b>(
-        &self,
-        mut rows: impl Iterator<Item = &'b FrameRow>,
-    ) -> Result<(), PlanError> {
-        let files = rows.by_ref().filter_map(|row| Some((row.file()?, row.fingerprint())));
-        let mut files = files.filter(|(file, print)| self.earlier.has_other(file, print));
-        match files.next() {
-            Some((file, _)) => {
-                Err(PlanError::WouldReplace { path: self.job.out.join(self.inside).join(file) })
-            }
-            None => Ok(()),
-        }
+        let read = || Earlier::read(&out.join(self.inside), self.job.frames.as_ref());
+        self.earlier.get_or_init(read).has_frame(file, fingerprint) && is_whole()
     }
 }
 
@@ -75,8 +58,8 @@ impl Line<'_> {
     }
 
     /// Renders those of its pictures that come in such places and are not there yet; tells in `rendered` how far it came,
-    /// even if it fails.
-    pub fn render_part(
+    /// even if it fails. Where films alone are wanted, and all pictures of the line, it is the films that are made.
+    pub fn render_share(
         &self,
         run: &Run,
         task: &ShardTask,
@@ -85,33 +68,26 @@ impl Line<'_> {
         rendered: &mut Rendered,
     ) -> Result<(), JobError> {
         let (job, inside) = (run.job, self.inside());
+        let told = self.told(run)?;
         prepare_inside(&job.out, &inside)?;
         run.progress.game(&self.players());
-        if self.is_filmed(run)? {
+        if job.names.is_none() && told.is_some_and(|films| films.missing.is_empty()) {
             places.clone().for_each(|_| run.progress.frame_done());
             rendered.kept = places.len() as u64;
             rendered.frames = rendered.kept;
             return Ok(());
         }
+        if job.names.is_none() && places == (0..self.part.count()) {
+            return self.render_films(run, studio, rendered);
+        }
         let mut layout = self.lay_out_part(run, places, run.names.as_ref())?;
         let witness = Witness::new(job, &inside, &task.sums);
-        witness.refuse_others(layout.planned.iter().map(|planned| &planned.row))?;
         layout.keep(run, |row| witness.vouches(row));
         let traced = layout.trace(run, studio, &mut Reels::none(run.progress), job.format());
         rendered.kept = layout.planned.iter().filter(|planned| planned.is_kept).count() as u64;
         rendered.frames = rendered.kept + traced.frames;
         rendered.is_cancelled = traced.is_cancelled;
-        traced.outcome?;
-        if !job.format().is_sealed() {
-            for planned in &layout.planned[..traced.reached] {
-                let Some(file) = planned.row.file() else { continue };
-                let path = inside.join(file);
-                let sum = Sum::of(&job.out, &path, planned.row.fingerprint());
-                let failed = |error| OutputError { path: job.out.join(&path), error };
-                rendered.pictures.push(sum.map_err(failed)?);
-            }
-        }
-        Ok(())
+        Ok(traced.outcome?)
     }
 }
 

@@ -1,18 +1,23 @@
 //! Whether all pictures of a plan are there, and whole.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use rayon::prelude::*;
 
 use super::check::{batches, check};
-use super::file::{Place, Plan, PlanError};
+use super::error::PlanError;
+use super::file::Plan;
 use super::part::Witness;
-use super::records::{Records, Sums};
 use crate::job::batch::{Batch, Entry};
-use crate::job::crew::{Summary, with_crew};
+use crate::job::layout::Layout;
+use crate::job::line::Line;
+use crate::job::records::{Records, Sums};
 use crate::job::run::{RenderJob, Run, Task};
+use crate::job::share::Place;
+use crate::job::studio::bodies;
 use crate::job::{JobError, Progress};
 
 /// What there is of a plan's pictures.
@@ -34,12 +39,12 @@ pub struct Fault {
     /// The numbers in the names of the first and of the last.
     pub first: usize,
     pub last: usize,
-    pub missing: Missing,
+    pub flaw: Flaw,
 }
 
 /// What is wrong with a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Missing {
+pub enum Flaw {
     /// There is none.
     Missing,
     /// It is not whole, or another one than it should be.
@@ -66,29 +71,27 @@ impl Verdict {
 /// # Errors
 /// A plan that does not fit what it was made of, output of another plan, input that cannot be read.
 pub fn verify(plan: &Plan, job: &RenderJob, progress: &dyn Progress) -> Result<Verdict, JobError> {
-    check(plan, job, 0..=plan.head.inputs.len())?;
+    check(plan, job, 0..plan.head.inputs.len(), job.names.is_none())?;
     let records = Records::new(&job.out, &plan.head.id);
     records.refuse_others()?;
-    let batches = batches(plan, job)?;
-    let mut verdict = Verdict::default();
-    with_crew(job, Task::Verify, 1, progress, |run, _| {
-        progress.begin(plan.head.frames);
-        for batch in &batches {
-            let look = Look { plan, run, batch, records: &records, told: Mutex::default() };
-            verdict.faults.extend(look.faults()?);
-        }
-        Ok(Summary::default())
-    })?;
-    verdict.frames = plan.head.frames;
+    let pool = job.picture.pool()?;
+    let run = Run::new(job, Task::Whole, bodies(&job.picture)?, &pool, progress);
+    // As shards see it.
+    let run = &Run { names: Some(job.names_of_shards()), ..run };
+    let look = Look { plan, run, records: &records, told: Mutex::default() };
+    let mut verdict = Verdict { frames: plan.head.frames, ..Verdict::default() };
+    progress.begin(plan.head.frames);
+    for batch in &batches(plan, job)? {
+        verdict.faults.extend(look.faults(batch)?);
+    }
     verdict.cancelled = progress.is_cancelled();
     Ok(verdict)
 }
 
-/// A look at the pictures of one file of games.
+/// A look at the pictures of a plan.
 struct Look<'a> {
     plan: &'a Plan,
     run: &'a Run<'a>,
-    batch: &'a Batch,
     records: &'a Records,
     /// What the last few shards have told.
     told: Mutex<BTreeMap<usize, Arc<Sums>>>,
@@ -98,44 +101,27 @@ struct Look<'a> {
 const KEPT: usize = 8;
 
 impl Look<'_> {
-    /// What a shard has told of its pictures, where they do not tell themselves.
-    fn sums(&self, shard: usize) -> Arc<Sums> {
-        if self.run.job.format().is_sealed() {
-            return Arc::default();
-        }
-        let mut told = self.told.lock().unwrap_or_else(PoisonError::into_inner);
-        let sums = told.entry(shard).or_insert_with(|| Arc::new(self.records.sums(shard))).clone();
-        while told.len() > KEPT {
-            // Games come in their order, or nearly.
-            told.pop_first();
-        }
-        sums
-    }
-
-    fn faults(&self) -> Result<Vec<Fault>, JobError> {
-        let Look { plan, run, batch, .. } = self;
+    /// What is wrong with pictures of games of a file.
+    fn faults(&self, batch: &Batch) -> Result<Vec<Fault>, JobError> {
+        let Look { plan, run, .. } = self;
         let games = batch.entries(run.job, &run.script)?;
         let games = games.take_while(|_| !run.is_over()).enumerate();
-        let (frames, mut found) = run
-            .pool
-            .install(|| {
-                games
-                    .par_bridge()
-                    .map(|(place, entry)| {
-                        let entry = entry?;
-                        Ok((entry.frames(), vec![(place, self.of_game(&entry)?)]))
-                    })
-                    .try_reduce(
-                        || (0, Vec::new()),
-                        |(frames, mut found), (more, others)| {
-                            found.extend(
-                                others.into_iter().filter(|(_, faults)| !faults.is_empty()),
-                            );
-                            Ok((frames + more, found))
-                        },
-                    )
-            })
-            .map_err(|error: JobError| error)?;
+        type Found = (u64, Vec<(usize, Vec<Fault>)>);
+        let found: Result<Found, JobError> = run.pool.install(|| {
+            games
+                .par_bridge()
+                .map(|(place, entry)| {
+                    let entry = entry?;
+                    let faults = self.of_game(batch, &entry)?;
+                    let faults = Some((place, faults)).filter(|(_, faults)| !faults.is_empty());
+                    Ok((entry.frames(), faults.into_iter().collect()))
+                })
+                .try_reduce(Found::default, |(frames, mut found), (more, others)| {
+                    found.extend(others);
+                    Ok((frames + more, found))
+                })
+        });
+        let (frames, mut found) = found?;
         if frames != batch.frames && !run.is_over() {
             let (name, expected) = (plan.name.clone(), batch.frames);
             return Err(PlanError::Misfit { name, found: frames, expected }.into());
@@ -145,64 +131,84 @@ impl Look<'_> {
     }
 
     /// What is wrong with pictures of one game.
-    fn of_game(&self, entry: &Entry) -> Result<Vec<Fault>, JobError> {
-        let Look { plan, run, batch, .. } = self;
-        let place = |frame| Place { file: batch.file, game: entry.game.number, frame };
-        let mut faults: Vec<Fault> = Vec::new();
-        let mut before = 0;
+    fn of_game(&self, batch: &Batch, entry: &Entry) -> Result<Vec<Fault>, JobError> {
+        let mut faults = Vec::new();
+        let (file, game) = (batch.file, entry.game.number);
+        let mut first = Place { file, game, frame: 0 };
         for line in entry.lines(batch) {
-            if line.is_filmed(run)? {
-                let frames = line.part.count() as u64;
-                (0..frames).for_each(|_| run.progress.frame_done());
-                before += frames;
-                continue;
+            if line.is_filmed(self.run)? {
+                (0..line.part.count()).for_each(|_| self.run.progress.frame_done());
+            } else {
+                self.of_line(&line, first, &mut faults)?;
             }
-            let layout = line.lay_out(run)?;
-            let inside = line.inside();
-            let frames = layout.planned.len() as u64;
-            let mut begin = 0;
-            // Shard by shard: each has records of its own.
-            while begin < frames {
-                let number = plan.shard_of(place(before + begin));
-                let end = plan.shard(number)?.of(batch.file, entry.game.number, u64::MAX).end;
-                let end = (end - before).min(frames);
-                let sums = self.sums(number);
-                let witness = Witness::new(run.job, &inside, &sums);
-                let pictures = layout.planned[begin as usize..end as usize].par_iter();
-                let missing: Vec<_> = pictures
-                    .filter(|_| !run.is_over())
-                    .filter_map(|planned| {
-                        run.progress.frame_done();
-                        let is_good = witness.vouches(&planned.row);
-                        (!is_good).then(|| {
-                            let path = planned.row.file().map(|file| layout.folder.join(file));
-                            (planned.number, what(path.as_deref()))
-                        })
-                    })
-                    .collect();
-                for (picture, missing) in missing {
-                    let fault = Fault {
-                        shard: number,
-                        folder: inside.clone(),
-                        first: picture,
-                        last: picture,
-                        missing,
-                    };
-                    add(&mut faults, fault);
-                }
-                begin = end;
-            }
-            before += frames;
+            first.frame += line.part.count() as u64;
         }
         Ok(faults)
+    }
+
+    /// Adds what is wrong with pictures of a line, of which the first frame is at `first`, shard by shard: each has records of
+    /// its own.
+    fn of_line(&self, line: &Line, first: Place, faults: &mut Vec<Fault>) -> Result<(), JobError> {
+        let Look { plan, run, .. } = self;
+        let layout = line.lay_out(run)?;
+        let (inside, frames) = (line.inside(), layout.planned.len() as u64);
+        let mut begin = 0;
+        while begin < frames {
+            let shard = plan.shard_of(Place { frame: first.frame + begin, ..first });
+            let share = plan.shard(shard)?.of(first.file, first.game, u64::MAX);
+            let end = (share.end - first.frame).min(frames);
+            let sums = self.sums(shard);
+            let witness = Witness::new(run.job, &inside, &sums);
+            for (picture, flaw) in self.flaws(&layout, begin as usize..end as usize, &witness) {
+                let folder = inside.clone();
+                add(faults, Fault { shard, folder, first: picture, last: picture, flaw });
+            }
+            begin = end;
+        }
+        Ok(())
+    }
+
+    /// Which pictures of a line, in such places, are wrong: the numbers in their names.
+    fn flaws(
+        &self,
+        layout: &Layout,
+        places: Range<usize>,
+        witness: &Witness,
+    ) -> Vec<(usize, Flaw)> {
+        let pictures = layout.planned[places].par_iter().filter(|_| !self.run.is_over());
+        let flaws = pictures.filter_map(|planned| {
+            self.run.progress.frame_done();
+            let path = planned.row.file().map(|file| layout.folder.join(file));
+            (!witness.vouches(&planned.row)).then(|| (planned.number, flaw(path.as_deref())))
+        });
+        flaws.collect()
+    }
+
+    /// What a shard has told of its pictures, where they do not tell themselves.
+    fn sums(&self, shard: usize) -> Arc<Sums> {
+        if self.run.job.format().is_sealed() {
+            return Arc::default();
+        }
+        let told = || self.told.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(sums) = told().get(&shard) {
+            return sums.clone();
+        }
+        let sums = Arc::new(self.records.sums(shard));
+        let mut told = told();
+        told.insert(shard, sums.clone());
+        while told.len() > KEPT {
+            // Games come in their order, or nearly.
+            told.pop_first();
+        }
+        sums
     }
 }
 
 /// What is wrong with a picture for which nobody vouches.
-fn what(path: Option<&Path>) -> Missing {
+fn flaw(path: Option<&Path>) -> Flaw {
     match path.is_some_and(|path| path.symlink_metadata().is_ok()) {
-        true => Missing::Broken,
-        false => Missing::Missing,
+        true => Flaw::Broken,
+        false => Flaw::Missing,
     }
 }
 
@@ -211,8 +217,8 @@ fn add(faults: &mut Vec<Fault>, fault: Fault) {
     match faults.last_mut() {
         Some(last)
             if last.last + 1 == fault.first
-                && (last.shard, &last.folder, last.missing)
-                    == (fault.shard, &fault.folder, fault.missing) =>
+                && (last.shard, &last.folder, last.flaw)
+                    == (fault.shard, &fault.folder, fault.flaw) =>
         {
             last.last = fault.last;
         }

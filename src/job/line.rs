@@ -9,7 +9,6 @@ use super::JobError;
 use super::batch::{Batch, Entry, Part, VariationPart, game_folder};
 use super::captions::GameCaptions;
 use super::layout::{Layout, Planned};
-use super::plan::Sum;
 use super::reels::Reels;
 use super::report::{FrameRow, Manifest, tags, texts};
 use super::run::{Films, RenderJob, Run, Task};
@@ -57,6 +56,12 @@ impl Entry {
     }
 }
 
+/// The films of a line: those that are there, and those that are to be made.
+pub struct FilmsWanted {
+    kept: Vec<FilmFormat>,
+    pub missing: Vec<FilmFormat>,
+}
+
 /// What came of it.
 #[derive(Default)]
 pub struct Rendered {
@@ -67,14 +72,11 @@ pub struct Rendered {
     /// Films that are there now.
     pub films: usize,
     pub is_cancelled: bool,
-    /// Of a shard's pictures that do not tell what they are.
-    pub pictures: Vec<Sum>,
 }
 
 impl Rendered {
     /// Adds what came of another line of the same game.
-    pub fn add(&mut self, other: Rendered) {
-        self.pictures.extend(other.pictures);
+    pub fn add(&mut self, other: &Rendered) {
         self.frames += other.frames;
         self.kept += other.kept;
         self.films += other.films;
@@ -90,10 +92,14 @@ impl Line<'_> {
         studio: &mut Studio,
         rendered: &mut Rendered,
     ) -> Result<(), JobError> {
-        let (job, progress) = (run.job, run.progress);
-        let (wanted, names) = (job.frames.as_ref(), run.names.as_ref());
+        let job = run.job;
+        let (wanted, names) = (job.frames.as_ref(), job.names.as_ref());
+        let is_merge = matches!(run.task, Task::Merge);
+        if is_merge {
+            self.told(run)?;
+        }
         remove_temporaries(&prepare_inside(&job.out, &self.inside())?)?;
-        progress.game(&self.players());
+        run.progress.game(&self.players());
         let mut layout = self.lay_out(run)?;
         let folder = layout.folder.clone();
         let fingerprint = fingerprint(run, &layout.planned);
@@ -105,57 +111,119 @@ impl Line<'_> {
                     earlier.has_frame(file, row.fingerprint())
                         && is_whole(&folder.join(file), format, row.fingerprint())
                 };
-                matches!(run.task, Task::Merge) || is_believed()
+                is_merge || is_believed()
             })
         });
-        let planned = &layout.planned;
-        let film = |format: FilmFormat| film_name(format, wanted);
-        let is_made = |format: &FilmFormat| earlier.has_film(&film(*format), &fingerprint);
-        let (kept_films, films): (Vec<_>, Vec<_>) =
-            job.films.formats.iter().copied().partition(is_made);
-
-        let mut kept = self.folders_within();
-        kept.extend(kept_films.iter().map(|format| film(*format)));
-        let kept_frames = planned.iter().filter(|planned| planned.is_kept);
-        kept.extend(kept_frames.filter_map(|planned| planned.row.file()).map(str::to_owned));
+        let films = self.films(run, &earlier, &fingerprint);
         let spent: Vec<PathBuf> = layout.spent(run);
+        let mut kept = self.folders_within();
+        kept.extend(films.kept.iter().map(|format| film_name(*format, wanted)));
+        let kept_frames = layout.planned.iter().filter(|planned| planned.is_kept);
+        kept.extend(kept_frames.filter_map(|planned| planned.row.file()).map(str::to_owned));
         kept.extend(spent.iter().filter_map(|path| Some(path.file_name()?.to_str()?.to_owned())));
         earlier.remove(names, |name| kept.contains(name))?;
-        let manifest = |films: &[FilmFormat], rows: Vec<&FrameRow>| {
-            let films = films.iter().map(|format| film(*format)).collect();
-            let path = folder.join(manifest_name(wanted));
-            write_json(&path, &self.manifest(run, &fingerprint, films, rows))
-        };
-        manifest(&job.films.formats, planned.iter().map(|planned| &planned.row).collect())?;
+        self.write_manifest(run, &layout, &fingerprint, &job.films.formats, |_, _| true)?;
         earlier.remove_manifests()?;
+        if self.make(run, studio, &layout, &fingerprint, films, rendered)? {
+            spent.iter().try_for_each(|path| remove_file(path))?;
+        }
+        Ok(())
+    }
 
-        let films = Films { formats: films, ffmpeg: job.films.ffmpeg.clone() };
-        let Layout { timeline, captions, .. } = &layout;
-        let shots = if films.formats.is_empty() {
+    /// Makes films alone of the line in its folder, beside others who may do the same: nothing is removed.
+    pub fn render_films(
+        &self,
+        run: &Run,
+        studio: &mut Studio,
+        rendered: &mut Rendered,
+    ) -> Result<(), JobError> {
+        let job = run.job;
+        let layout = self.lay_out_part(run, 0..self.part.count(), None)?;
+        let fingerprint = fingerprint(run, &layout.planned);
+        let earlier = Earlier::read(&layout.folder, job.frames.as_ref());
+        let films = self.films(run, &earlier, &fingerprint);
+        self.write_manifest(run, &layout, &fingerprint, &job.films.formats, |_, _| true)?;
+        self.make(run, studio, &layout, &fingerprint, films, rendered)?;
+        Ok(())
+    }
+
+    /// What a manifest of the whole tells of the films of the line, if there is one.
+    ///
+    /// # Errors
+    /// When it tells of another whole: of other settings, or of another game.
+    pub fn told(&self, run: &Run) -> Result<Option<FilmsWanted>, JobError> {
+        let RenderJob { out, frames, names, films, .. } = run.job;
+        let folder = out.join(self.inside());
+        let earlier = Earlier::read(&folder, frames.as_ref());
+        if !earlier.is_told() {
+            return Ok(None);
+        }
+        let layout = self.lay_out_part(run, 0..self.part.count(), names.as_ref())?;
+        let fingerprint = fingerprint(run, &layout.planned);
+        let formats = films.formats.iter();
+        let ours: Vec<String> = formats.map(|format| film_name(*format, frames.as_ref())).collect();
+        if earlier.is_other(&fingerprint, &ours) {
+            let path = folder.join(manifest_name(frames.as_ref()));
+            return Err(JobError::WouldReplace { path });
+        }
+        Ok(Some(self.films(run, &earlier, &fingerprint)))
+    }
+
+    /// Whether films alone are wanted of it, and all are there: then its pictures may be gone.
+    ///
+    /// # Errors
+    /// When there are films of something else.
+    pub fn is_filmed(&self, run: &Run) -> Result<bool, JobError> {
+        let told = self.told(run)?;
+        Ok(run.job.names.is_none() && told.is_some_and(|films| films.missing.is_empty()))
+    }
+
+    /// Which films of the whole with that fingerprint are there.
+    fn films(&self, run: &Run, earlier: &Earlier, fingerprint: &str) -> FilmsWanted {
+        let RenderJob { films, frames, .. } = run.job;
+        let name = |format: &FilmFormat| film_name(*format, frames.as_ref());
+        let is_made = |format: &FilmFormat| earlier.has_film(&name(format), fingerprint);
+        let (kept, missing) = films.formats.iter().copied().partition(is_made);
+        FilmsWanted { kept, missing }
+    }
+
+    /// Makes pictures and films that are missing; whether all are there then. If not, the manifest tells which are.
+    fn make(
+        &self,
+        run: &Run,
+        studio: &mut Studio,
+        layout: &Layout,
+        fingerprint: &str,
+        films: FilmsWanted,
+        rendered: &mut Rendered,
+    ) -> Result<bool, JobError> {
+        let (job, planned) = (run.job, &layout.planned);
+        let shots = if films.missing.is_empty() {
             Shots::default()
         } else {
+            let Layout { timeline, captions, .. } = layout;
             Shots::of(&job.picture, timeline, captions, self.part, run.script.film.fps)
         };
-        let mut reels = Reels::begin(&films, shots, progress, |format| folder.join(film(format)))?;
-        let traced = layout.trace(run, studio, &mut reels, format);
+        let missing = Films { formats: films.missing, ffmpeg: job.films.ffmpeg.clone() };
+        let file = |format| layout.folder.join(film_name(format, job.frames.as_ref()));
+        let mut reels = Reels::begin(&missing, shots, run.progress, file)?;
+        let traced = layout.trace(run, studio, &mut reels, job.format());
         rendered.kept = planned.iter().filter(|planned| planned.is_kept).count() as u64;
         rendered.frames = rendered.kept + traced.frames;
         rendered.is_cancelled = traced.is_cancelled;
         let (made, filming) = reels.end(traced.is_cancelled || traced.outcome.is_err());
         // A film that was waited for may have been told to stop.
-        rendered.is_cancelled |= made.len() < films.formats.len() && run.is_over();
-        let made: Vec<FilmFormat> = kept_films.into_iter().chain(made).collect();
+        rendered.is_cancelled |= made.len() < missing.formats.len() && run.is_over();
+        let made: Vec<FilmFormat> = films.kept.into_iter().chain(made).collect();
         rendered.films = made.len();
         traced.outcome?;
-        if traced.reached < planned.len() || made.len() < job.films.formats.len() {
-            let is_there =
-                |(place, planned): &(usize, &Planned)| *place < traced.reached || planned.is_kept;
-            let rows = planned.iter().enumerate().filter(is_there);
-            manifest(&made, rows.map(|(_, planned)| &planned.row).collect())?;
-        } else {
-            spent.iter().try_for_each(|path| remove_file(path))?;
+        let is_all = traced.reached == planned.len() && made.len() == job.films.formats.len();
+        if !is_all {
+            let is_there = |place, planned: &Planned| place < traced.reached || planned.is_kept;
+            self.write_manifest(run, layout, fingerprint, &made, is_there)?;
         }
-        Ok(filming?)
+        filming?;
+        Ok(is_all)
     }
 
     /// Refuses to replace what is of other settings or another game. What is broken is not.
@@ -217,20 +285,6 @@ impl Line<'_> {
         Ok(Layout { game, folder, timeline, captions, planned })
     }
 
-    /// Whether films alone are wanted of it, and all are there: then its pictures may be gone.
-    pub fn is_filmed(&self, run: &Run) -> Result<bool, JobError> {
-        let RenderJob { names: None, films, frames, out, .. } = run.job else { return Ok(false) };
-        let folder = out.join(self.inside());
-        if !folder.is_dir() {
-            return Ok(false);
-        }
-        let layout = self.lay_out_part(run, 0..self.part.count(), None)?;
-        let fingerprint = fingerprint(run, &layout.planned);
-        let earlier = Earlier::read(&folder, frames.as_ref());
-        let mut names = films.formats.iter().map(|format| film_name(*format, frames.as_ref()));
-        Ok(names.all(|name| earlier.has_film(&name, &fingerprint)))
-    }
-
     /// All its frames.
     pub fn timeline<'a>(&self, script: &'a Script) -> Result<Timeline<'a>, JobError> {
         let Part { first, last, .. } = *self.part;
@@ -247,17 +301,20 @@ impl Line<'_> {
         players.map(|player| shortened(player, 60)).join(" – ")
     }
 
-    fn manifest<'a>(
-        &'a self,
-        run: &'a Run,
-        fingerprint: &'a str,
-        films: Vec<String>,
-        frames: Vec<&'a FrameRow>,
-    ) -> Manifest<'a> {
+    /// Writes the manifest with such films, and those pictures that are `listed` by their place.
+    fn write_manifest(
+        &self,
+        run: &Run,
+        layout: &Layout,
+        fingerprint: &str,
+        films: &[FilmFormat],
+        listed: impl Fn(usize, &Planned) -> bool,
+    ) -> Result<(), JobError> {
         let Line { file, game, variation, .. } = self;
-        let game = game.as_ref();
-        let showing = &run.job.showing;
-        Manifest {
+        let RenderJob { showing, frames, picture, .. } = run.job;
+        let rows = layout.planned.iter().enumerate();
+        let rows = rows.filter(|(place, planned)| listed(*place, planned));
+        let manifest = Manifest {
             file,
             game: game.number,
             line: game.line,
@@ -266,14 +323,15 @@ impl Line<'_> {
             variation: variation.map(|name| name.to_string_lossy().into_owned()),
             result: &game.result,
             problems: &game.problems,
-            settings: run.job.picture.record(),
+            settings: picture.record(),
             film: showing.animate.then_some(showing.film),
             orbit: showing.orbit,
             orbits_each_move: showing.orbits_each_move,
             fingerprint,
-            films,
-            frames,
-        }
+            films: films.iter().map(|format| film_name(*format, frames.as_ref())).collect(),
+            frames: rows.map(|(_, planned)| &planned.row).collect(),
+        };
+        Ok(write_json(&layout.folder.join(manifest_name(frames.as_ref())), &manifest)?)
     }
 
     /// The folders of variations directly within this one.
@@ -289,7 +347,5 @@ impl Line<'_> {
 fn fingerprint(run: &Run, planned: &[Planned]) -> String {
     let frames: Vec<_> = planned.iter().map(|planned| planned.row.shows()).collect();
     let showing = &run.job.showing;
-    let is_by_ffmpeg =
-        run.job.films.formats.contains(&FilmFormat::Mp4) && run.job.films.ffmpeg.is_some();
-    run.fingerprints.of(&(frames, showing.animate, showing.film, is_by_ffmpeg))
+    run.fingerprints.of(&(frames, showing.animate, showing.film, run.job.is_by_ffmpeg()))
 }
