@@ -4,7 +4,7 @@ use std::env;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::{LIGHTSQUARE, assert_as_plain, done, plan_and_plain, repository};
+use crate::{LIGHTSQUARE, assert_as_plain, done, plan_and_plain, repository, skip};
 
 /// In `PATH`, or with the other judges.
 fn openjd() -> Option<PathBuf> {
@@ -29,8 +29,7 @@ fn run(openjd: &Path, folder: &Path, arguments: &[&str]) {
 #[test]
 fn openjd_runs_all_shards_and_merges() {
     let Some(openjd) = openjd() else {
-        eprintln!("skipped: there is no openjd");
-        return;
+        return skip("openjd");
     };
     let temporary = tempfile::tempdir().unwrap();
     let folder = temporary.path();
@@ -45,4 +44,7 @@ fn openjd_runs_all_shards_and_merges() {
     run(&openjd, folder, &[&steps, &job[..]].concat());
     done(folder, &["verify", "plan.jsonl"]);
     assert_as_plain(folder);
+    eprintln!(
+        "openjd: its template is right, all shards are rendered and merged as by one process"
+    );
 }

@@ -33,7 +33,7 @@ impl Slurm {
     pub fn start(folder: &Path) -> Option<Slurm> {
         let needed = ["munged", "slurmctld", "slurmd", "sbatch", "squeue", "scancel"];
         if let Some(missing) = needed.iter().find(|name| installed(name).is_none()) {
-            eprintln!("skipped: there is no {missing}");
+            crate::skip(missing);
             return None;
         }
         fs::create_dir(folder).unwrap();
