@@ -196,7 +196,11 @@ fn rendered(
 /// So many frames, of which some were kept.
 fn frames_of(frames: u64, kept: u64) -> String {
     let frames = count(frames, "frame");
-    if kept > 0 { format!("{frames} ({kept} of them were there)") } else { frames }
+    match kept {
+        0 => frames,
+        1 => format!("{frames} (1 of them was there)"),
+        _ => format!("{frames} ({kept} of them were there)"),
+    }
 }
 
 /// Tells what pictures of a plan are missing.
@@ -206,7 +210,11 @@ fn verified(verdict: &Verdict, job: &RenderJob, terminal: &Terminal) -> anyhow::
         terminal.say(&format!("all is there: {frames} in {out}"));
         return Ok(ExitCode::SUCCESS);
     }
-    writeln!(io::stdout(), "{}", cli::table::verdict(verdict))?;
+    match writeln!(io::stdout(), "{}", cli::table::verdict(verdict)) {
+        // Whoever reads has seen enough.
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => {}
+        written => written?,
+    }
     let shards = verdict.shards().len() as u64;
     terminal.say(&format!(
         "{} of {frames} in {out} missing or broken, in {}",

@@ -30,7 +30,7 @@ use picture::PictureArgs;
 use plan::{PlanArgs, PlannedArgs};
 use print::PrintArgs;
 use subject::SubjectArgs;
-use values::{every, plies, runs, threads};
+use values::{every, plies, runs, shard, threads};
 use wanted::WantedArgs;
 
 /// Reads chess games (PGN), replays them and ray-traces them into pictures and films.
@@ -240,7 +240,7 @@ pub struct RenderArgs {
     #[arg(long, value_name = "FILE", help_heading = "Many machines")]
     pub plan: Option<PathBuf>,
     /// Which one, counted from 0 [default: SLURM_ARRAY_TASK_ID of the environment]
-    #[arg(long, value_name = "N", help_heading = "Many machines", requires = "plan")]
+    #[arg(long, value_name = "N", help_heading = "Many machines", requires = "plan", value_parser = shard)]
     shard: Option<usize>,
 }
 

@@ -117,6 +117,12 @@ impl PlanArgs {
         if self.output == Path::new("-") {
             bail!(UsageError("--output: expected a file, found `-`".to_owned()));
         }
+        if self.output == self.out {
+            let name = self.out.display();
+            bail!(UsageError(format!(
+                "--output: expected a file, found the folder of --out, `{name}`"
+            )));
+        }
         self.games.into_job(self.out, false)
     }
 }
@@ -127,9 +133,15 @@ impl PlanArgs {
 /// Arguments of no plan, settings that cannot be read.
 pub fn planned_job(plan: &Plan, threads: &ThreadsArgs) -> anyhow::Result<RenderJob> {
     let given = ["lightsquare"].into_iter().chain(plan.arguments());
-    let given = Cli::try_parse_from(given).ok().map(|cli| cli.command);
-    let Some(Command::Plan(args)) = given else {
-        bail!("{}: its arguments are those of no plan", plan.name);
+    let name = &plan.name;
+    let args = match Cli::try_parse_from(given).map(|cli| cli.command) {
+        Ok(Command::Plan(args)) => args,
+        Ok(_) => bail!("{name}: its arguments are those of another command than plan"),
+        Err(error) => {
+            let error = error.to_string();
+            let first = error.lines().next().unwrap_or_default();
+            bail!("{name}: {}", first.strip_prefix("error: ").unwrap_or(first));
+        }
     };
     let mut job = args.into_job()?;
     // Those of the machine that made the plan are its own.

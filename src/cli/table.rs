@@ -72,6 +72,7 @@ pub fn plan(planned: &Planned) -> String {
         _ => " (some of them within a move)",
     };
     let cut = match within_lines {
+        0 if *shards == 1 => "all is in one".to_owned(),
         0 => "each begins with a game, so the cuts cost next to nothing".to_owned(),
         _ => format!(
             "{within_lines} of them {} within a game{torn}, which costs {} more at most, {share:.1} %",

@@ -67,6 +67,10 @@ pub fn shards(text: &str) -> Result<usize, String> {
     whole_number(text, 1, MOST_SHARDS)
 }
 
+pub fn shard(text: &str) -> Result<usize, String> {
+    whole_number(text, 0, MOST_SHARDS - 1)
+}
+
 pub fn every(text: &str) -> Result<usize, String> {
     whole_number(text, 1, 100_000)
 }

@@ -6,6 +6,7 @@ use super::batch::{Batch, Entry, Part};
 use super::captions::GameCaptions;
 use super::render::survey;
 use super::run::RenderJob;
+use super::settings::shown_of;
 use super::studio::Studio;
 use super::{JobError, Progress};
 use crate::game::Game;
@@ -28,17 +29,20 @@ pub struct Estimate {
 /// So many games are looked into, spread over all of them.
 const SAMPLES: usize = 3;
 
-/// For so long frames of one of them are rendered.
+/// For so long frames of one of them are rendered, and at least so many that differ from the one before.
 const BUDGET: Duration = Duration::from_millis(1500);
+const FEWEST: u32 = 4;
 
 /// What frames of one game took.
 #[derive(Default)]
 struct Sample {
     /// The first, which is rendered whole.
     first: Duration,
-    /// Those that follow, which reuse what stood still.
+    /// Those that follow and differ, which reuse what stood still.
     others: Duration,
     others_count: u32,
+    /// Of all frames of the game those that differ from the one before.
+    share: f64,
     bytes: usize,
     count: u32,
 }
@@ -72,6 +76,7 @@ pub fn measure(job: &RenderJob, batches: &[Batch]) -> Result<Estimate, JobError>
     let others = samples.iter().map(|sample| sample.others.as_secs_f64()).sum::<f64>();
     let counted: u32 = samples.iter().map(|sample| sample.others_count).sum();
     let other = if counted > 0 { others / f64::from(counted) } else { whole };
+    let share = samples.iter().map(|sample| sample.share).sum::<f64>() / number;
     let bytes = samples.iter().map(|sample| sample.bytes as f64).sum::<f64>();
     let encoded = f64::from(samples.iter().map(|sample| sample.count).sum::<u32>().max(1));
     let first = (games as f64).min(frames as f64);
@@ -79,7 +84,7 @@ pub fn measure(job: &RenderJob, batches: &[Batch]) -> Result<Estimate, JobError>
         games,
         frames,
         bytes: if job.names.is_some() { bytes / encoded * frames as f64 } else { 0.0 },
-        seconds: first * whole + (frames as f64 - first) * other,
+        seconds: first * whole + (frames as f64 - first) * share * other,
         whole_seconds: whole,
         other_seconds: other,
         threads: pool.current_num_threads(),
@@ -125,13 +130,32 @@ fn sample(
         return Ok(sample);
     };
     let captions = GameCaptions::new(game, job.picture.config.captions);
+    // What the studio compares too, before it makes a picture anew.
+    let looks = |index: usize| {
+        let frame = timeline.frame(index);
+        (captions.of(&frame), shown_of(&job.picture, &frame), frame)
+    };
+    let indices: Vec<usize> = part.frames().map(|(index, _)| index).collect();
+    let mut differ = Vec::new();
+    let mut last = None;
+    for index in indices.iter().copied().take(MOST_COMPARED) {
+        let (content, shown, _) = looks(index);
+        let is_same = last
+            .as_ref()
+            .is_some_and(|(said, before)| *said == content && shown.shows_the_same(before));
+        if !is_same {
+            differ.push(index);
+        }
+        last = Some((content, shown));
+    }
+    sample.share = differ.len() as f64 / indices.len().clamp(1, MOST_COMPARED) as f64;
     let begun = Instant::now();
-    let mut frames = part.frames().map(|(index, _)| index).skip(part.count() / 2);
+    let mut frames = differ.iter().copied().skip(differ.len() / 2);
     while let Some(index) = frames.next() {
         let start = Instant::now();
-        let frame = timeline.frame(index);
+        let (content, _, frame) = looks(index);
         let coming = frames.clone().map(|index| timeline.frame(index));
-        let picture = studio.picture(&frame, captions.of(&frame).as_ref(), coming);
+        let picture = studio.picture(&frame, content.as_ref(), coming);
         if job.names.is_some() {
             sample.bytes += picture.bytes(job.format()).map_err(JobError::Write)?;
         }
@@ -142,9 +166,12 @@ fn sample(
             sample.others += start.elapsed();
             sample.others_count += 1;
         }
-        if begun.elapsed() > BUDGET {
+        if begun.elapsed() > BUDGET && sample.others_count >= FEWEST {
             break;
         }
     }
     Ok(sample)
 }
+
+/// So many frames of a game are compared.
+const MOST_COMPARED: usize = 10_000;

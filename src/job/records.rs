@@ -45,8 +45,9 @@ impl Records {
     /// # Errors
     /// When there are shards of another plan in `out`.
     pub fn refuse_others(&self) -> Result<(), PlanError> {
-        let names = fs::read_dir(self.out.join(FOLDER)).into_iter().flatten().flatten();
-        let names = names.map(|entry| entry.file_name().to_string_lossy().into_owned());
+        let entries = fs::read_dir(self.out.join(FOLDER)).into_iter().flatten().flatten();
+        let folders = entries.filter(|entry| entry.path().is_dir());
+        let names = folders.map(|entry| entry.file_name().to_string_lossy().into_owned());
         match names.filter(|name| *name != self.id).min() {
             Some(theirs) => {
                 let folder = self.out.join(FOLDER).join(printable(&theirs));
@@ -54,6 +55,11 @@ impl Records {
             }
             None => Ok(()),
         }
+    }
+
+    /// Whether there are any.
+    pub fn are_there(&self) -> bool {
+        self.folder().is_dir()
     }
 
     fn folder(&self) -> PathBuf {
@@ -87,7 +93,7 @@ impl Records {
         Ledger { out: out.clone(), folder: self.folder(), shard, file: OnceLock::new() }
     }
 
-    /// Takes back what a shard has said that has rendered nothing.
+    /// Takes back what a shard has said that had nothing to render, or could not.
     pub fn take_back(&self, shard: usize) {
         // Where others have records, the folders stay.
         let _ = fs::remove_file(self.report(shard));

@@ -15,19 +15,14 @@ use crate::job::input::Input;
 use crate::job::run::RenderJob;
 
 /// Makes sure that the games and settings are those of which a plan was made, where `job` is what the plan's arguments
-/// stand for. All files of games must be there; those that are `read` must be the same to the last byte. Where films are
-/// told from others, they must be made by the same program.
+/// stand for. All files of games must be there; those that are `read` must be the same to the last byte.
+/// Films in MP4 must be made by the same program.
 ///
 /// # Errors
 /// When they are not.
-pub fn check(
-    plan: &Plan,
-    job: &RenderJob,
-    read: Range<usize>,
-    tells_films: bool,
-) -> Result<(), PlanError> {
+pub fn check(plan: &Plan, job: &RenderJob, read: Range<usize>) -> Result<(), PlanError> {
     let Head { is_by_ffmpeg, .. } = plan.head;
-    if tells_films && job.is_by_ffmpeg() != is_by_ffmpeg {
+    if job.is_by_ffmpeg() != is_by_ffmpeg {
         return Err(PlanError::OtherEncoder { name: plan.name.clone(), is_by_ffmpeg });
     }
     for (file, input) in plan.head.inputs.iter().enumerate() {

@@ -1,7 +1,7 @@
 //! The plan's file.
 
-use std::fs;
-use std::io::{self, Write};
+use std::fs::{self, File};
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
@@ -74,8 +74,11 @@ pub(super) struct ShardLine {
     pub begin: Place,
 }
 
-fn version(lightsquare: &str, pictures: u32) -> String {
-    format!("{lightsquare} (pictures {pictures})")
+/// More bytes than any plan needs.
+const LONGEST: u64 = 1 << 28;
+
+fn version(lightsquare: &str, pictures: u32, plans: u32) -> String {
+    format!("{lightsquare} (pictures {pictures}, plans {plans})")
 }
 
 impl Default for Head {
@@ -143,7 +146,10 @@ impl Plan {
     pub fn read(path: &Path) -> Result<Plan, PlanError> {
         let name = shown(path);
         let no_plan = || PlanError::NoPlan { name: name.clone() };
-        let text = fs::read(path).map_err(|error| PlanError::Io { name: name.clone(), error })?;
+        let failed = |error| PlanError::Io { name: name.clone(), error };
+        let mut text = Vec::new();
+        let file = File::open(path).map_err(failed)?;
+        file.take(LONGEST).read_to_end(&mut text).map_err(failed)?;
         let text = String::from_utf8(text).map_err(|_| no_plan())?;
         let mut lines = text.lines();
         let first = lines.next().unwrap_or_default();
@@ -157,9 +163,9 @@ impl Plan {
         let (Some(format), Some(theirs)) = (number("plan"), head["lightsquare"].as_str()) else {
             return Err(no_plan());
         };
-        let theirs = version(&printable(theirs), number("pictures").unwrap_or(0));
-        let ours = version(env!("CARGO_PKG_VERSION"), PICTURES);
-        if theirs != ours || format != FORMAT {
+        let theirs = version(&printable(theirs), number("pictures").unwrap_or(0), format);
+        let ours = version(env!("CARGO_PKG_VERSION"), PICTURES, FORMAT);
+        if theirs != ours {
             return Err(PlanError::OtherVersion { name, theirs, ours });
         }
         let damaged = |line| PlanError::Damaged { name: name.clone(), line };

@@ -15,7 +15,7 @@ use crate::job::batch::{Batch, Entry};
 use crate::job::estimate::measure;
 use crate::job::fingerprint::Fingerprints;
 use crate::job::input::read_through;
-use crate::job::records::has_shards;
+use crate::job::records::{Records, has_shards};
 use crate::job::render::{keep_out, survey};
 use crate::job::room::check_room;
 use crate::job::run::RenderJob;
@@ -71,8 +71,9 @@ pub fn plan(
         return Err(PlanError::Stream(shown(stream)).into());
     }
     keep_files(&job.inputs, &job.picture, output)?;
-    if let Some(folder) = has_shards(&job.out) {
-        return Err(PlanError::NotMerged { folder }.into());
+    if job.out.exists() && !job.out.is_dir() {
+        let error = io::ErrorKind::NotADirectory.into();
+        return Err(OutputError { path: job.out.clone(), error }.into());
     }
     let batches = survey(job, progress)?;
     keep_out(job, &batches)?;
@@ -106,7 +107,17 @@ pub fn plan(
         ..Head::default()
     };
     let plan = Plan::new(output, head, &begins).map_err(failed)?;
+    if let Some(folder) = has_shards(&job.out)
+        && Records::new(&job.out, &plan.head.id).refuse_others().is_err()
+    {
+        return Err(PlanError::NotMerged { folder }.into());
+    }
     plan.write(output)?;
+    if !job.films.formats.is_empty() && !job.format().is_exact() {
+        progress.say(
+            "films are made of exact pictures: merging will trace them anew, all on one machine",
+        );
+    }
 
     let sizes = || plan.shards.iter().map(|shard| shard.frames);
     let count = |wanted: &[Seam]| seams.iter().filter(|seam| wanted.contains(seam)).count();

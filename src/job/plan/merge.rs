@@ -1,6 +1,6 @@
 //! What shards have rendered, as one machine would have left it.
 
-use super::check::{batches, check};
+use super::check::batches;
 use super::file::Plan;
 use super::verify::{Verdict, verify};
 use crate::job::crew::Summary;
@@ -24,7 +24,6 @@ pub enum Merged {
 /// # Errors
 /// Those of [`verify`], and of rendering.
 pub fn merge(plan: &Plan, job: &RenderJob, progress: &dyn Progress) -> Result<Merged, JobError> {
-    check(plan, job, 0..0, true)?;
     let verdict = verify(plan, job, progress)?;
     if verdict.cancelled {
         return Ok(Merged::Done(Summary { cancelled: true, ..Summary::default() }));

@@ -29,7 +29,7 @@ pub fn render_shard(
 ) -> Result<Summary, JobError> {
     let shard = plan.shard(number)?;
     // What others read is theirs to look at.
-    check(plan, job, shard.files(), job.names.is_none())?;
+    check(plan, job, shard.files())?;
     let records = Records::new(&job.out, &plan.head.id);
     // The range of games alone says where the shard ends.
     let part = |batch: Batch| {
@@ -47,6 +47,7 @@ pub fn render_shard(
         for (batch, _) in &parts {
             locks.push(FolderLock::share(&prepare_inside(&job.out, &batch.folder)?)?);
         }
+        let is_first = !records.are_there();
         records.claim()?;
         let mut summary = Summary::default();
         // Of two plans that begin at once, one at least sees the other.
@@ -55,7 +56,8 @@ pub fn render_shard(
             let report = Report::begin(&records.report(number))?;
             run.shard(shard, &parts, report, studios, &mut summary)
         });
-        if outcome.is_err() && summary.frames == 0 {
+        // Nothing is left where nothing was to do, as behind a merge.
+        if is_first && summary.frames == summary.kept {
             records.take_back(number);
         }
         outcome?;

@@ -71,7 +71,7 @@ impl Verdict {
 /// # Errors
 /// A plan that does not fit what it was made of, output of another plan, input that cannot be read.
 pub fn verify(plan: &Plan, job: &RenderJob, progress: &dyn Progress) -> Result<Verdict, JobError> {
-    check(plan, job, 0..plan.head.inputs.len(), job.names.is_none())?;
+    check(plan, job, 0..plan.head.inputs.len())?;
     let records = Records::new(&job.out, &plan.head.id);
     records.refuse_others()?;
     let pool = job.picture.pool()?;
