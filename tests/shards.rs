@@ -185,7 +185,16 @@ fn verify_finds_what_is_missing_cut_or_flipped() {
         for number in [0, 2] {
             shard(folder, number);
         }
-        assert_same(&merged(folder), &alone(&["--format", ending]), ending);
+        let expected = alone(&["--format", ending]);
+        assert_same(&merged(folder), &expected, ending);
+        // Behind the merge it is the manifests that tell.
+        let mut bytes = fs::read(folder.join(name(4))).unwrap();
+        bytes[middle] ^= 4;
+        fs::write(folder.join(name(4)), &bytes).unwrap();
+        let (code, told, _) = run(folder, &["verify", "plan.jsonl"]);
+        assert_eq!((code, &*told), (3, "--array=0\n0\tgames/0001-a-b\t4\tbroken\n"), "{ending}");
+        shard(folder, 0);
+        assert_same(&merged(folder), &expected, ending);
     }
 }
 

@@ -3,7 +3,8 @@
 #
 #   sbatch --dependency=afterany:JOB merge.sh plan.jsonl
 #
-# Where frames are missing the job fails with exit code 3, and `lightsquare verify plan.jsonl` tells which.
+# Where frames are missing the job ends with exit code 3, and its log says which; also where all is done, but a game
+# could not be read to its end.
 
 #SBATCH --job-name=lightsquare-merge
 #SBATCH --time=01:00:00

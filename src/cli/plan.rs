@@ -30,11 +30,8 @@ Example:
   tasks=$(lightsquare verify plan.jsonl | head -n 1)
   [ -z \"$tasks\" ] || sbatch \"$tasks\" array.sh plan.jsonl
 
-A picture is whole if it is as it was written: by its own sums (PNG), or by those of its shard until all is merged; then
-JPEG, BMP, TIFF and WebP are whole if they can be read, and films are not looked into.
-
 The first line names the shards to send again, as Slurm's sbatch takes them: --array=2,5-7. The others, with tabs
-between: shard, folder, numbers of pictures, missing or broken.
+between: shard, folder, numbers of pictures, missing or broken. Of films it is seen whether they are there.
 
 Exit codes: 0 all pictures are there and whole; 1 failed; 2 wrong usage; 3 some are not.";
 

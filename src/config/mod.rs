@@ -349,14 +349,30 @@ impl Config {
         self.parts.over(theme.unwrap_or(&Parts::default()))
     }
 
-    /// The pictures of the materials that are used.
-    pub fn bitmaps(&self) -> BTreeSet<&PathBuf> {
+    /// The names of the materials that are used.
+    fn materials_in_use(&self) -> BTreeSet<String> {
         let parts = self.parts_in_force();
         let clock = self.clock.has_place().then(|| self.clock.materials());
-        let used =
-            parts.materials().map(|(_, name)| name.as_str()).chain(clock.into_iter().flatten());
-        used.chain(self.models.iter().map(|model| model.material.as_str()))
-            .filter_map(|name| self.materials.get(name))
+        let of_parts = parts.materials().map(|(_, name)| name.as_str());
+        let of_models = self.models.iter().map(|model| model.material.as_str());
+        let used = of_parts.chain(clock.into_iter().flatten()).chain(of_models);
+        used.map(str::to_owned).collect()
+    }
+
+    /// These settings without themes and materials that nothing is made of.
+    pub fn in_use(&self) -> Config {
+        let used = self.materials_in_use();
+        let mut config = self.clone();
+        config.themes.retain(|name, _| *name == self.theme);
+        config.materials.retain(|name, _| used.contains(name));
+        config
+    }
+
+    /// The pictures of the materials that are used.
+    pub fn bitmaps(&self) -> BTreeSet<&PathBuf> {
+        let used = self.materials_in_use();
+        let materials = used.iter().filter_map(|name| self.materials.get(name));
+        materials
             .filter(|material| material.texture == Texture::Bitmap)
             .map(|material| &material.bitmap)
             .collect()

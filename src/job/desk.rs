@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use rayon::{Scope, ThreadPool};
 
@@ -11,12 +11,14 @@ use super::records::Ledger;
 use crate::output::{OutputError, PictureFormat, RepeatedPicture};
 
 /// A picture that is to be written.
-pub struct Sheet {
+pub struct Sheet<'a> {
     pub path: PathBuf,
     pub picture: Arc<RepeatedPicture>,
     /// What it says of itself: keywords and texts.
     pub texts: Vec<(&'static str, String)>,
     pub fingerprint: String,
+    /// Where its CRC-32 is to be told, if that is wanted.
+    pub crc32: Option<&'a OnceLock<u32>>,
 }
 
 /// Where sheets wait until a thread of the pool has nothing to trace.
@@ -64,7 +66,7 @@ impl<'a> Desk<'a> {
 
     /// Has a sheet written by the end of `scope`, which is one of the pool; at once if too many wait. Once one could not
     /// be written, no more are taken.
-    pub fn take<'scope>(&'scope self, sheet: Sheet, scope: &Scope<'scope>) {
+    pub fn take<'scope>(&'scope self, sheet: Sheet<'scope>, scope: &Scope<'scope>) {
         if self.has_failed() {
             return;
         }
@@ -79,14 +81,13 @@ impl<'a> Desk<'a> {
     }
 
     fn write(&self, sheet: &Sheet) {
-        let Sheet { path, picture, texts, fingerprint } = sheet;
-        let written = picture.write(path, self.format, texts).and_then(|()| match self.ledger {
-            Some(ledger) => {
-                let crc32 = picture.crc32(self.format);
-                let crc32 = crc32.map_err(|error| OutputError { path: path.clone(), error })?;
-                ledger.add(path, fingerprint, crc32)
-            }
-            None => Ok(()),
+        let Sheet { path, picture, texts, fingerprint, crc32 } = sheet;
+        let written = picture.write(path, self.format, texts).and_then(|()| {
+            let Some(told) = crc32 else { return Ok(()) };
+            let crc32 = picture.crc32(self.format);
+            let crc32 = crc32.map_err(|error| OutputError { path: path.clone(), error })?;
+            told.get_or_init(|| crc32);
+            self.ledger.map_or(Ok(()), |ledger| ledger.add(path, fingerprint, crc32))
         });
         match written {
             Ok(()) => {
@@ -136,9 +137,9 @@ mod tests {
         }
     }
 
-    fn sheet(path: PathBuf) -> Sheet {
+    fn sheet(path: PathBuf) -> Sheet<'static> {
         let picture = Arc::new(RepeatedPicture::new(DynamicImage::new_rgb8(40, 30)));
-        Sheet { path, picture, texts: Vec::new(), fingerprint: String::new() }
+        Sheet { path, picture, texts: Vec::new(), fingerprint: String::new(), crc32: None }
     }
 
     /// Hands sheets in on so many threads: what came of it, and the frames that progress was told of.

@@ -12,7 +12,7 @@ use super::report::{FrameRow, texts};
 use super::run::{Run, Task};
 use super::studio::Studio;
 use crate::game::Game;
-use crate::output::{FINGERPRINT, OutputError, PictureFormat, RepeatedPicture};
+use crate::output::{FINGERPRINT, OutputError, PictureFormat, RepeatedPicture, crc32_of};
 use crate::timeline::Timeline;
 
 /// A line of play, laid out frame by frame.
@@ -52,6 +52,23 @@ impl Layout<'_> {
         run.pool.install(|| {
             let planned = self.planned.par_iter_mut();
             planned.for_each(|Planned { row, is_kept, .. }| *is_kept = is_there(row));
+        });
+    }
+
+    /// Says of each picture that is kept what sum its file has, as is `told` or found, where it does not tell itself.
+    pub fn sum(&self, run: &Run, told: impl Fn(&str) -> Option<u32> + Sync) {
+        let kept = || self.planned.par_iter().filter(|planned| planned.is_kept);
+        if run.job.format().is_sealed() {
+            return;
+        }
+        run.pool.install(|| {
+            kept().for_each(|Planned { row, .. }| {
+                let Some(file) = row.file() else { return };
+                let found = || crc32_of(&self.folder.join(file)).ok();
+                if let Some(crc32) = told(file).or_else(found) {
+                    row.crc32().get_or_init(|| crc32);
+                }
+            });
         });
     }
 
@@ -96,7 +113,8 @@ impl Layout<'_> {
                         let mut texts = texts(self.game, &self.timeline.frame(*index));
                         texts.push((FINGERPRINT, fingerprint.clone()));
                         let path = self.folder.join(file);
-                        desk.take(Sheet { path, picture, texts, fingerprint }, scope);
+                        let crc32 = Some(row.crc32()).filter(|_| !format.is_sealed());
+                        desk.take(Sheet { path, picture, texts, fingerprint, crc32 }, scope);
                     }
                 }
                 if !is_written {

@@ -17,8 +17,8 @@ use super::studio::Studio;
 use crate::game::Game;
 use crate::notation::Color;
 use crate::output::{
-    Earlier, FilmFormat, FrameNames, film_name, is_whole, manifest_name, prepare_inside,
-    remove_file, remove_temporaries, write_json,
+    Earlier, FilmFormat, FrameNames, film_name, manifest_name, prepare_inside, remove_file,
+    remove_temporaries, write_json,
 };
 use crate::text::shortened;
 use crate::timeline::{Script, Timeline};
@@ -101,19 +101,14 @@ impl Line<'_> {
         remove_temporaries(&prepare_inside(&job.out, &self.inside())?)?;
         run.progress.game(&self.players());
         let mut layout = self.lay_out(run)?;
-        let folder = layout.folder.clone();
         let fingerprint = fingerprint(run, &layout.planned);
-        let earlier = Earlier::read(&folder, wanted);
-        let format = job.format();
+        let earlier = Earlier::read(&layout.folder, wanted);
         layout.keep(run, |row| {
             row.file().is_some_and(|file| {
-                let is_believed = || {
-                    earlier.has_frame(file, row.fingerprint())
-                        && is_whole(&folder.join(file), format, row.fingerprint())
-                };
-                is_merge || is_believed()
+                is_merge || earlier.vouches(file, job.format(), row.fingerprint())
             })
         });
+        layout.sum(run, |file| earlier.crc32(file));
         let films = self.films(run, &earlier, &fingerprint);
         let spent: Vec<PathBuf> = layout.spent(run);
         let mut kept = self.folders_within();
@@ -218,7 +213,9 @@ impl Line<'_> {
         rendered.films = made.len();
         traced.outcome?;
         let is_all = traced.reached == planned.len() && made.len() == job.films.formats.len();
-        if !is_all {
+        // Sums of pictures are known now.
+        let is_summed = !job.format().is_sealed() && traced.frames > 0;
+        if !is_all || is_summed {
             let is_there = |place, planned: &Planned| place < traced.reached || planned.is_kept;
             self.write_manifest(run, layout, fingerprint, &made, is_there)?;
         }

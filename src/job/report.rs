@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::OnceLock;
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use serde_json::{Map, Value};
 
 use super::batch::Batch;
@@ -171,7 +172,7 @@ pub struct Manifest<'a> {
     pub variation: Option<String>,
     pub result: &'a str,
     pub problems: &'a [Problem],
-    pub settings: SettingsRecord<'a>,
+    pub settings: SettingsRecord,
     pub film: Option<Film>,
     pub orbit: f64,
     /// Whether the camera turns so far with each move.
@@ -192,6 +193,9 @@ pub struct FrameRow {
     file: Option<String>,
     /// Of what is in the file.
     fingerprint: String,
+    /// Of all bytes of a file that does not tell itself what it is, once it is there.
+    #[serde(skip_serializing_if = "is_unknown", serialize_with = "known")]
+    crc32: OnceLock<u32>,
     /// Seconds from the beginning of the film.
     time: f64,
     /// Half-moves before the position that is shown, or that the move under way leaves; so `san`,
@@ -217,6 +221,7 @@ impl FrameRow {
         FrameRow {
             file,
             fingerprint,
+            crc32: OnceLock::new(),
             // To the microsecond: sums of decimal fractions leave crumbs behind.
             time: (frame.time * 1e6).round() / 1e6,
             ply: frame.ply,
@@ -238,10 +243,23 @@ impl FrameRow {
         &self.fingerprint
     }
 
+    /// The CRC-32 of its file, where that is known.
+    pub fn crc32(&self) -> &OnceLock<u32> {
+        &self.crc32
+    }
+
     /// What is shown, and when.
     pub fn shows(&self) -> (&str, f64) {
         (&self.fingerprint, self.time)
     }
+}
+
+fn is_unknown(crc32: &OnceLock<u32>) -> bool {
+    crc32.get().is_none()
+}
+
+fn known<S: Serializer>(crc32: &OnceLock<u32>, serializer: S) -> Result<S::Ok, S::Error> {
+    crc32.get().serialize(serializer)
 }
 
 fn moving(game: &Game, frame: &Frame) -> Option<String> {

@@ -33,12 +33,12 @@ impl PictureSettings {
     }
 
     /// These as they stand in a manifest.
-    pub(super) fn record(&self) -> SettingsRecord<'_> {
+    pub(super) fn record(&self) -> SettingsRecord {
         SettingsRecord {
             version: env!("CARGO_PKG_VERSION"),
             config_file: self.config_file.as_deref().map(shown),
             set: printable(&self.set.to_string()),
-            config: &self.config,
+            config: self.config.in_use(),
         }
     }
 
@@ -50,14 +50,14 @@ impl PictureSettings {
     }
 }
 
-/// [`PictureSettings`] as they stand in a manifest, without the number of threads.
+/// [`PictureSettings`] as they stand in a manifest, without the number of threads, and what is not used.
 #[derive(Serialize)]
-pub(super) struct SettingsRecord<'a> {
+pub(super) struct SettingsRecord {
     version: &'static str,
     config_file: Option<String>,
     set: String,
     #[serde(flatten)]
-    config: &'a Config,
+    config: Config,
 }
 
 /// What of a frame can be seen in the scene.

@@ -14,34 +14,43 @@ use serde_json::Value;
 use super::film::FILM_FORMATS;
 use super::frames::frame_index;
 use super::{
-    FrameNames, OutputError, PictureFormat, film_name, manifest_name, remove_if_there,
-    remove_temporaries,
+    FrameNames, OutputError, PictureFormat, crc32_of, film_name, is_whole, manifest_name,
+    remove_if_there, remove_temporaries,
 };
 
 /// A game's folder, with what its manifests say.
 pub struct Earlier {
     folder: PathBuf,
     part: Option<RangeInclusive<usize>>,
-    /// The fingerprint of each file that they name; none where they do not tell, or one says this and another that.
-    files: BTreeMap<String, Option<String>>,
+    /// What each file is that they name; none where one says this and another that.
+    files: BTreeMap<String, Option<Told>>,
     /// What is said of the whole by the manifest of the same part, which is to be written again; and its pictures.
     fingerprint: Option<String>,
     films: BTreeSet<String>,
     own: BTreeSet<String>,
 }
 
+/// What a manifest tells of a picture.
+#[derive(PartialEq, Eq)]
+struct Told {
+    fingerprint: Option<String>,
+    /// Of all its bytes.
+    crc32: Option<u32>,
+}
+
 impl Earlier {
     /// Reads what is in `folder`, where a `part` of the frames is to be rendered, or all. What cannot be read is as if
     /// it were not there.
     pub fn read(folder: &Path, part: Option<&RangeInclusive<usize>>) -> Earlier {
-        let mut files: BTreeMap<String, Option<String>> = BTreeMap::new();
+        let mut files: BTreeMap<String, Option<Told>> = BTreeMap::new();
         let names = fs::read_dir(folder).into_iter().flatten().flatten();
         let names = names.map(|entry| entry.file_name().to_string_lossy().into_owned());
         for name in names.filter(|name| is_manifest(name)) {
             for row in manifest(&folder.join(name))["frames"].as_array().into_iter().flatten() {
                 let text = |key: &str| row[key].as_str().map(str::to_owned);
                 let Some(file) = text("file") else { continue };
-                let told = text("fingerprint");
+                let crc32 = row["crc32"].as_u64().and_then(|crc32| u32::try_from(crc32).ok());
+                let told = Some(Told { fingerprint: text("fingerprint"), crc32 });
                 files
                     .entry(file)
                     .and_modify(|known| {
@@ -67,7 +76,26 @@ impl Earlier {
 
     /// Whether the picture `file` was made to be what has that fingerprint.
     pub fn has_frame(&self, file: &str, fingerprint: &str) -> bool {
-        self.files.get(file).and_then(Option::as_deref) == Some(fingerprint)
+        self.told(file).and_then(|told| told.fingerprint.as_deref()) == Some(fingerprint)
+    }
+
+    /// The CRC-32 of the picture `file` when it was written, where that is told.
+    pub fn crc32(&self, file: &str) -> Option<u32> {
+        self.told(file)?.crc32
+    }
+
+    /// Whether the picture `file` was made to be what has that fingerprint, and is there and whole.
+    pub fn vouches(&self, file: &str, format: PictureFormat, fingerprint: &str) -> bool {
+        let path = self.folder.join(file);
+        self.has_frame(file, fingerprint)
+            && match self.crc32(file) {
+                Some(told) => crc32_of(&path).is_ok_and(|found| found == told),
+                None => is_whole(&path, format, fingerprint),
+            }
+    }
+
+    fn told(&self, file: &str) -> Option<&Told> {
+        self.files.get(file)?.as_ref()
     }
 
     /// Whether anything is said of the whole.

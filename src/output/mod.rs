@@ -25,7 +25,7 @@ pub use png::encode_png;
 pub use record::{JsonLines, write_json};
 pub use repeated::RepeatedPicture;
 pub use slug::slug;
-pub use whole::{FINGERPRINT, is_whole};
+pub use whole::{FINGERPRINT, crc32_of, is_whole};
 
 use std::fs;
 use std::io::{self, BufWriter, Write};

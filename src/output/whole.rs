@@ -33,6 +33,24 @@ pub fn is_whole(path: &Path, format: PictureFormat, fingerprint: &str) -> bool {
         .unwrap_or(false)
 }
 
+/// The CRC-32 of all bytes of a file.
+///
+/// # Errors
+/// When it cannot be read, or is none: what a link leads to is none of ours.
+pub fn crc32_of(path: &Path) -> io::Result<u32> {
+    if !fs::symlink_metadata(path)?.is_file() {
+        return Err(io::ErrorKind::InvalidInput.into());
+    }
+    let mut file = File::open(path)?;
+    let (mut sum, mut buffer) = (crc32fast::Hasher::new(), vec![0; 1 << 16]);
+    loop {
+        match file.read(&mut buffer)? {
+            0 => return Ok(sum.finalize()),
+            read => sum.update(&buffer[..read]),
+        }
+    }
+}
+
 /// The fingerprint of a PNG whose chunks follow each other with right sums, and whose last one ends the file.
 fn fingerprint_of(mut file: impl Read) -> io::Result<Option<Vec<u8>>> {
     let mut fingerprint = None;

@@ -38,15 +38,14 @@ impl<'a> Witness<'a> {
         let Some(file) = row.file() else { return false };
         let (out, inside, fingerprint) = (&self.job.out, self.inside.join(file), row.fingerprint());
         let format = self.job.format();
-        let is_whole = || is_whole(&out.join(&inside), format, fingerprint);
         if format.is_sealed() {
-            return is_whole();
+            return is_whole(&out.join(&inside), format, fingerprint);
         }
         if let Some(told) = self.sums.get(&*inside.to_string_lossy()) {
             return told.holds(out, fingerprint);
         }
         let read = || Earlier::read(&out.join(self.inside), self.job.frames.as_ref());
-        self.earlier.get_or_init(read).has_frame(file, fingerprint) && is_whole()
+        self.earlier.get_or_init(read).vouches(file, format, fingerprint)
     }
 }
 
