@@ -73,7 +73,7 @@ pub fn plan(planned: &Planned) -> String {
     };
     let cut = match within_lines {
         0 if *shards == 1 => "all is in one".to_owned(),
-        0 => "each begins with a game, so the cuts cost next to nothing".to_owned(),
+        0 => "each begins with a game, so the cuts cost no tracing".to_owned(),
         _ => format!(
             "{within_lines} of them {} within a game{torn}, which costs {} more at most, {share:.1} %",
             if *within_lines == 1 { "begins" } else { "begin" },
