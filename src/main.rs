@@ -129,8 +129,16 @@ fn plan(args: PlanArgs, terminal: &Terminal) -> anyhow::Result<ExitCode> {
     let planned = job::plan(&job, arguments, &output, shards, terminal)?;
     terminal.say(&cli::table::plan(&planned));
     let all: Vec<usize> = (0..planned.shards).collect();
-    writeln!(io::stdout(), "{}", cli::table::array(&all))?;
+    print_lines(&cli::table::array(&all))?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// Prints lines for another program, which may have seen enough before the last.
+fn print_lines(lines: &str) -> io::Result<()> {
+    match writeln!(io::stdout(), "{lines}") {
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
+        written => written,
+    }
 }
 
 /// Renders a shard. A signal ends it at once: whoever sends it will not wait, and the next one goes on from there.
@@ -210,11 +218,7 @@ fn verified(verdict: &Verdict, job: &RenderJob, terminal: &Terminal) -> anyhow::
         terminal.say(&format!("all is there: {frames} in {out}"));
         return Ok(ExitCode::SUCCESS);
     }
-    match writeln!(io::stdout(), "{}", cli::table::verdict(verdict)) {
-        // Whoever reads has seen enough.
-        Err(error) if error.kind() == ErrorKind::BrokenPipe => {}
-        written => written?,
-    }
+    print_lines(&cli::table::verdict(verdict))?;
     let shards = verdict.shards().len() as u64;
     terminal.say(&format!(
         "{} of {frames} in {out} missing or broken, in {}",

@@ -136,13 +136,22 @@ fn shards_at_once_even_the_same_one_do_not_disturb_each_other() {
     for options in [&["--animate", "--fps", "8", "--film", "gif"][..], &["--format", "bmp"]] {
         let folder = folder();
         let folder = folder.path();
-        plan(folder, options, 3);
-        thread::scope(|scope| {
-            for number in [0, 1, 2, 1, 0, 2] {
-                scope.spawn(move || shard(folder, number));
-            }
-        });
-        assert_same(&merged(folder), &alone(options), &format!("{options:?}"));
+        // More than there are frames, for one of them.
+        let shards = if options.contains(&"bmp") { 30 } else { 3 };
+        plan(folder, options, shards);
+        let all_at_once = || {
+            thread::scope(|scope| {
+                for number in [0, 1, 2, 1, 0, 2].into_iter().chain(3..shards) {
+                    scope.spawn(move || shard(folder, number));
+                }
+            });
+        };
+        let expected = alone(options);
+        all_at_once();
+        assert_same(&merged(folder), &expected, &format!("{options:?}"));
+        // Behind the merge they leave nothing.
+        all_at_once();
+        assert_same(&tree(&folder.join("out")), &expected, &format!("{options:?} again"));
     }
 }
 
@@ -418,6 +427,7 @@ fn what_no_plan_can_have_is_refused() {
     let folder = folder();
     let folder = folder.path();
     fs::write(folder.join("own.ini"), "").unwrap();
+    fs::write(folder.join("other.txt"), "mine").unwrap();
     for (arguments, code, expected) in [
         (&["plan", "-"][..], 1, "-: a plan's games are read by every shard, expected files"),
         (&["plan", "none.pgn"], 1, "none.pgn: no such file"),
@@ -432,6 +442,7 @@ fn what_no_plan_can_have_is_refused() {
         (&["plan", "games.pgn", "-o", "x", "--out", "x"], 2, "found the folder of --out, `x`"),
         (&["plan", "games.pgn", "--out", "own.ini"], 1, "own.ini: cannot be written"),
         (&["render", "--plan", "plan.jsonl", "--shard", "x"], 2, "a whole number from 0 to 999"),
+        (&["plan", "games.pgn", "-o", "other.txt"], 1, "other.txt: is there and is no plan"),
         (&["plan", "games.pgn", "-o", "-"], 2, "--output: expected a file, found `-`"),
         (&["verify", "none.jsonl"], 1, "none.jsonl: cannot be read"),
         (&["verify", "games.pgn"], 1, "games.pgn: is no plan of lightsquare"),
@@ -469,6 +480,69 @@ fn what_no_plan_can_have_is_refused() {
         assert!(said.contains(expected), "{arguments:?}: {said}");
     }
     assert_eq!(fs::read_to_string(folder.join("games.pgn")).unwrap(), GAMES);
+}
+
+/// What plain `render` has left, and a plan that would replace or remove some of it.
+#[test]
+fn what_a_run_with_other_settings_has_left_is_refused_before_anything_is_written() {
+    let small = ["--size", "50x40"];
+    for (before, planned) in [
+        (&small[..], &["--frames", "1-2"][..]),
+        (&["--size", "50x40", "--frames", "1-2"], &[]),
+        (&["--size", "50x40", "--frames", "0-2"], &["--frames", "1-3"]),
+        (&["--names", "x##.png"], &[]),
+        (&["--variations"], &[]),
+        (&["--film", "gif"], &["--film", "apng"]),
+        (&["--film", "gif", "--no-frames", "--flip"], &["--film", "gif", "--no-frames"]),
+    ] {
+        let folder = folder();
+        let folder = folder.path();
+        // The second file is of the plan alone.
+        let games = ["render", "games.pgn", "--select", "1"];
+        let look = if before.contains(&"--size") { &PLAIN[..4] } else { &PLAIN[..] };
+        done(folder, &[&games[..], look, before].concat());
+        let left = tree(&folder.join("out"));
+        let games = ["plan", "others.pgn", "games.pgn", "--plies", "6-9", "--shards", "1"];
+        done(folder, &[&games[..], &PLAIN, planned].concat());
+        for arguments in [
+            &["render", "--plan", "plan.jsonl", "--shard", "0"][..],
+            &["verify", "plan.jsonl"],
+            &["merge", "plan.jsonl"],
+        ] {
+            let said = refused(folder, arguments, 1);
+            assert!(said.contains("is of another run or plan"), "{before:?}, {planned:?}: {said}");
+            assert_same(&tree(&folder.join("out")), &left, &format!("{before:?}, {planned:?}"));
+        }
+    }
+}
+
+#[test]
+fn a_film_that_nobody_tells_of_is_made_anew() {
+    let folder = folder();
+    let folder = folder.path();
+    let film = ["--film", "gif", "--no-frames", "--animate", "--fps", "20"];
+    let look = [&["games.pgn", "--select", "1", "--size", "200x150"][..], &film].concat();
+    done(folder, &[&["plan", "--shards", "1"], &look[..]].concat());
+    let game = folder.join("out/games/0001-a-b");
+    fs::create_dir_all(&game).unwrap();
+    fs::write(game.join("film.gif"), "another").unwrap();
+    let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_lightsquare"))
+        .args(["render", "--plan", "plan.jsonl", "--shard", "0", "--cpu", "1"])
+        .current_dir(folder)
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    while !folder.join("out/.shards").exists() {
+        thread::sleep(Duration::from_millis(5));
+    }
+    thread::sleep(Duration::from_millis(300));
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert_eq!(run(folder, &["verify", "plan.jsonl"]).0, 3);
+    shard(folder, 0);
+    done(folder, &["merge", "plan.jsonl"]);
+    done(folder, &[&["render", "--out", "alone"], &look[..]].concat());
+    assert_same(&tree(&folder.join("out")), &tree(&folder.join("alone")), "");
 }
 
 #[test]

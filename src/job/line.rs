@@ -108,7 +108,8 @@ impl Line<'_> {
                 is_merge || earlier.vouches(file, job.format(), row.fingerprint())
             })
         });
-        layout.sum(run, |file| earlier.crc32(file));
+        // Those of shards were just held against their files.
+        layout.sum(run, |file| earlier.crc32(file).filter(|_| !is_merge));
         let films = self.films(run, &earlier, &fingerprint);
         let spent: Vec<PathBuf> = layout.spent(run);
         let mut kept = self.folders_within();
@@ -137,31 +138,46 @@ impl Line<'_> {
         let fingerprint = fingerprint(run, &layout.planned);
         let earlier = Earlier::read(&layout.folder, job.frames.as_ref());
         let films = self.films(run, &earlier, &fingerprint);
-        self.write_manifest(run, &layout, &fingerprint, &job.films.formats, |_, _| true)?;
-        self.make(run, studio, &layout, &fingerprint, films, rendered)?;
+        // It tells of films that are there, and not of those that are to come: one of that name may be another's.
+        if self.make(run, studio, &layout, &fingerprint, films, rendered)? {
+            self.write_manifest(run, &layout, &fingerprint, &job.films.formats, |_, _| true)?;
+        }
         Ok(())
     }
 
-    /// What a manifest of the whole tells of the films of the line, if there is one.
+    /// What a manifest tells of the films of the line, if there is one.
     ///
     /// # Errors
-    /// When it tells of another whole: of other settings, or of another game.
+    /// When manifests tell of something in its folder that would be replaced or removed: what is of other settings, of
+    /// another game, or of more of it.
     pub fn told(&self, run: &Run) -> Result<Option<FilmsWanted>, JobError> {
         let RenderJob { out, frames, names, films, .. } = run.job;
         let folder = out.join(self.inside());
         let earlier = Earlier::read(&folder, frames.as_ref());
-        if !earlier.is_told() {
+        if !earlier.is_any() {
             return Ok(None);
         }
+        let other = |name: &str| Err(JobError::WouldReplace { path: folder.join(name) });
         let layout = self.lay_out_part(run, 0..self.part.count(), names.as_ref())?;
         let fingerprint = fingerprint(run, &layout.planned);
-        let formats = films.formats.iter();
-        let ours: Vec<String> = formats.map(|format| film_name(*format, frames.as_ref())).collect();
+        let film = |format: &FilmFormat| film_name(*format, frames.as_ref());
+        let ours: Vec<String> = films.formats.iter().map(film).collect();
         if earlier.is_other(&fingerprint, &ours) {
-            let path = folder.join(manifest_name(frames.as_ref()));
-            return Err(JobError::WouldReplace { path });
+            return other(&manifest_name(frames.as_ref()));
         }
-        Ok(Some(self.films(run, &earlier, &fingerprint)))
+        let films = self.films(run, &earlier, &fingerprint);
+        let names = run.job.names_of_shards();
+        let mut ours = self.folders_within();
+        ours.extend(films.kept.iter().map(film));
+        // What nobody tells of, shards have written.
+        ours.extend(layout.planned.iter().filter_map(|Planned { number, row, .. }| {
+            let name = names.name(*number);
+            (!earlier.tells(&name) || earlier.has_frame(&name, row.fingerprint())).then_some(name)
+        }));
+        match earlier.first_old(Some(&names), |name| ours.contains(name))? {
+            Some(name) => other(&name),
+            None => Ok(earlier.is_told().then_some(films)),
+        }
     }
 
     /// Whether films alone are wanted of it, and all are there: then its pictures may be gone.

@@ -80,7 +80,9 @@ impl Records {
                 let text = fs::read(entry.path()).unwrap_or_default();
                 let lines = text.split(|byte| *byte == b'\n');
                 let told = lines.filter_map(|line| serde_json::from_slice::<Sum>(line).ok());
-                sums.extend(told.map(|sum| (sum.file.clone(), sum)));
+                for sum in told {
+                    sums.entry(sum.file.clone()).or_default().push(sum);
+                }
             }
         }
         sums
@@ -92,10 +94,8 @@ impl Records {
         Ledger { out: out.clone(), folder: self.folder(), shard, file: OnceLock::new() }
     }
 
-    /// Takes back what a shard has said that had nothing to render, or could not.
-    pub fn take_back(&self, shard: usize) {
-        // Where others have records, the folders stay.
-        let _ = fs::remove_file(self.report(shard));
+    /// Takes back what [`Records::claim`] has said, if nobody has said more.
+    pub fn take_back(&self) {
         let _ = fs::remove_dir(self.folder());
         let _ = fs::remove_dir(self.out.join(FOLDER));
     }
@@ -134,15 +134,14 @@ pub struct Sum {
     crc32: u32,
 }
 
-/// The sums of one shard, by file.
-pub type Sums = BTreeMap<String, Sum>;
+/// The sums of one shard, by file; of each run that has written it one.
+pub type Sums = BTreeMap<String, Vec<Sum>>;
 
-impl Sum {
-    /// Whether the file in the folder `out` is still the same, and of that fingerprint.
-    pub fn holds(&self, out: &Path, fingerprint: &str) -> bool {
-        self.fingerprint == fingerprint
-            && crc32_of(&out.join(&self.file)).is_ok_and(|found| found == self.crc32)
-    }
+/// Whether a file in the folder `out` is as one of `sums` tells, of that fingerprint.
+pub fn holds(sums: &[Sum], out: &Path, fingerprint: &str) -> bool {
+    let Some(Sum { file, .. }) = sums.first() else { return false };
+    let found = crc32_of(&out.join(file)).ok();
+    sums.iter().any(|sum| sum.fingerprint == fingerprint && found == Some(sum.crc32))
 }
 
 /// A file to which one run of a shard adds sums as it goes, so that a kill loses none. Each run has its own.

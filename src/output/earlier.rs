@@ -28,6 +28,7 @@ pub struct Earlier {
     fingerprint: Option<String>,
     films: BTreeSet<String>,
     own: BTreeSet<String>,
+    is_any: bool,
 }
 
 /// What a manifest tells of a picture.
@@ -45,7 +46,9 @@ impl Earlier {
         let mut files: BTreeMap<String, Option<Told>> = BTreeMap::new();
         let names = fs::read_dir(folder).into_iter().flatten().flatten();
         let names = names.map(|entry| entry.file_name().to_string_lossy().into_owned());
+        let mut is_any = false;
         for name in names.filter(|name| is_manifest(name)) {
+            is_any = true;
             for row in manifest(&folder.join(name))["frames"].as_array().into_iter().flatten() {
                 let text = |key: &str| row[key].as_str().map(str::to_owned);
                 let Some(file) = text("file") else { continue };
@@ -71,6 +74,7 @@ impl Earlier {
             fingerprint: own["fingerprint"].as_str().map(str::to_owned),
             films: films.map(str::to_owned).collect(),
             own: rows.filter_map(|row| row["file"].as_str()).map(str::to_owned).collect(),
+            is_any,
         }
     }
 
@@ -96,6 +100,16 @@ impl Earlier {
 
     fn told(&self, file: &str) -> Option<&Told> {
         self.files.get(file)?.as_ref()
+    }
+
+    /// Whether there is any manifest.
+    pub fn is_any(&self) -> bool {
+        self.is_any
+    }
+
+    /// Whether a manifest tells of the picture `file`.
+    pub fn tells(&self, file: &str) -> bool {
+        self.files.contains_key(file)
     }
 
     /// Whether anything is said of the whole.

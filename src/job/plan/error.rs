@@ -16,6 +16,8 @@ pub enum PlanError {
     },
     #[error("{name}: is no plan of lightsquare, expected a file that `lightsquare plan` has made")]
     NoPlan { name: String },
+    #[error("{name}: is there and is no plan, so it is not replaced; expected another --output")]
+    InTheWay { name: String },
     #[error(
         "{name}: was made by lightsquare {theirs}, and this is {ours}; expected the same version, or a new plan"
     )]

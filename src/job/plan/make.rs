@@ -62,19 +62,7 @@ pub fn plan(
     shards: Option<usize>,
     progress: &dyn Progress,
 ) -> Result<Planned, JobError> {
-    // Neither the standard input nor a pipe can be read again; of what is not there or a folder, reading tells.
-    let is_stream = |input: &&PathBuf| {
-        let is_other = |data: fs::Metadata| !data.is_file() && !data.is_dir();
-        *input == Path::new("-") || fs::metadata(input).is_ok_and(is_other)
-    };
-    if let Some(stream) = job.inputs.iter().find(is_stream) {
-        return Err(PlanError::Stream(shown(stream)).into());
-    }
-    keep_files(&job.inputs, &job.picture, output)?;
-    if job.out.exists() && !job.out.is_dir() {
-        let error = io::ErrorKind::NotADirectory.into();
-        return Err(OutputError { path: job.out.clone(), error }.into());
-    }
+    refuse_unfit(job, output)?;
     let batches = survey(job, progress)?;
     keep_out(job, &batches)?;
     check_room(job, batches.iter().map(|batch| batch.frames).sum())?;
@@ -120,18 +108,40 @@ pub fn plan(
     }
 
     let sizes = || plan.shards.iter().map(|shard| shard.frames);
-    let count = |wanted: &[Seam]| seams.iter().filter(|seam| wanted.contains(seam)).count();
-    let within_lines = count(&[Seam::Position, Seam::Frame]);
+    let count = |seam| seams.iter().filter(|found| **found == seam).count();
+    let within_lines = count(Seam::Position) + count(Seam::Frame);
     let more = (estimate.whole_seconds - estimate.other_seconds).max(0.0);
     Ok(Planned {
         shards,
         smallest: sizes().min().unwrap_or(0),
         largest: sizes().max().unwrap_or(0),
         within_lines,
-        within_moves: if job.showing.animate { count(&[Seam::Frame]) } else { 0 },
+        within_moves: if job.showing.animate { count(Seam::Frame) } else { 0 },
         estimate,
         cost: within_lines as f64 * more,
     })
+}
+
+/// Refuses input that cannot be read again, and output that cannot be written.
+fn refuse_unfit(job: &RenderJob, output: &Path) -> Result<(), JobError> {
+    // Of what is not there, or is a folder, reading tells.
+    let is_stream = |input: &&PathBuf| {
+        let is_other = |data: fs::Metadata| !data.is_file() && !data.is_dir();
+        *input == Path::new("-") || fs::metadata(input).is_ok_and(is_other)
+    };
+    if let Some(stream) = job.inputs.iter().find(is_stream) {
+        return Err(PlanError::Stream(shown(stream)).into());
+    }
+    keep_files(&job.inputs, &job.picture, output)?;
+    // What is there is another plan, or nothing of ours.
+    if output.is_file() && matches!(Plan::read(output), Err(PlanError::NoPlan { .. })) {
+        return Err(PlanError::InTheWay { name: shown(output) }.into());
+    }
+    if job.out.exists() && !job.out.is_dir() {
+        let error = io::ErrorKind::NotADirectory.into();
+        return Err(OutputError { path: job.out.clone(), error }.into());
+    }
+    Ok(())
 }
 
 /// What stands in a plan for all settings of pictures.

@@ -9,7 +9,7 @@ use std::sync::OnceLock;
 
 use crate::job::JobError;
 use crate::job::line::{Line, Rendered};
-use crate::job::records::Sums;
+use crate::job::records::{Sums, holds};
 use crate::job::reels::Reels;
 use crate::job::report::FrameRow;
 use crate::job::run::{RenderJob, Run, ShardTask};
@@ -42,7 +42,7 @@ impl<'a> Witness<'a> {
             return is_whole(&out.join(&inside), format, fingerprint);
         }
         if let Some(told) = self.sums.get(&*inside.to_string_lossy()) {
-            return told.holds(out, fingerprint);
+            return holds(told, out, fingerprint);
         }
         let read = || Earlier::read(&out.join(self.inside), self.job.frames.as_ref());
         self.earlier.get_or_init(read).vouches(file, format, fingerprint)

@@ -5,6 +5,7 @@ use std::sync::{Mutex, PoisonError};
 use super::check::{batches, check};
 use super::error::PlanError;
 use super::file::Plan;
+use super::verify::Look;
 use crate::game::Wanted;
 use crate::job::batch::{Batch, Entry};
 use crate::job::crew::{Summary, with_crew};
@@ -43,24 +44,23 @@ pub fn render_shard(
         keep_out(job, parts.iter().map(|(batch, _)| batch))?;
         records.refuse_others()?;
         progress.begin(shard.frames);
+        // Behind a merge, or over what another run has left, it is looked first: what is done already leaves nothing
+        // behind, and what is another's is refused before anything is written.
+        let is_new = !records.are_there() && job.out.is_dir();
+        if is_new && Look::new(plan, run, &records).is_done(number, &parts)? {
+            let frames = shard.frames;
+            return Ok(Summary { frames, kept: frames, ..Summary::default() });
+        }
         let mut locks = Vec::new();
         for (batch, _) in &parts {
             locks.push(FolderLock::share(&prepare_inside(&job.out, &batch.folder)?)?);
         }
-        let is_first = !records.are_there();
         records.claim()?;
-        let mut summary = Summary::default();
         // Of two plans that begin at once, one at least sees the other.
-        let outcome = records.refuse_others().map_err(JobError::from);
-        let outcome = outcome.and_then(|()| {
-            let report = Report::begin(&records.report(number))?;
-            run.shard(shard, &parts, report, studios, &mut summary)
-        });
-        // Nothing is left where nothing was to do, as behind a merge.
-        if is_first && summary.frames == summary.kept {
-            records.take_back(number);
-        }
-        outcome?;
+        records.refuse_others().inspect_err(|_| records.take_back())?;
+        let mut summary = Summary::default();
+        let report = Report::begin(&records.report(number))?;
+        run.shard(shard, &parts, report, studios, &mut summary)?;
         let (found, expected) = (summary.frames, shard.frames);
         if found != expected && !summary.cancelled {
             return Err(PlanError::Misfit { name: plan.name.clone(), found, expected }.into());

@@ -11,6 +11,7 @@ use super::check::{batches, check};
 use super::error::PlanError;
 use super::file::Plan;
 use super::part::Witness;
+use crate::game::Wanted;
 use crate::job::batch::{Batch, Entry};
 use crate::job::layout::Layout;
 use crate::job::line::Line;
@@ -78,7 +79,7 @@ pub fn verify(plan: &Plan, job: &RenderJob, progress: &dyn Progress) -> Result<V
     let run = Run::new(job, Task::Whole, bodies(&job.picture)?, &pool, progress);
     // As shards see it.
     let run = &Run { names: Some(job.names_of_shards()), ..run };
-    let look = Look { plan, run, records: &records, told: Mutex::default() };
+    let look = Look::new(plan, run, &records);
     let mut verdict = Verdict { frames: plan.head.frames, ..Verdict::default() };
     progress.begin(plan.head.frames);
     for batch in &batches(plan, job)? {
@@ -89,7 +90,7 @@ pub fn verify(plan: &Plan, job: &RenderJob, progress: &dyn Progress) -> Result<V
 }
 
 /// A look at the pictures of a plan.
-struct Look<'a> {
+pub struct Look<'a> {
     plan: &'a Plan,
     run: &'a Run<'a>,
     records: &'a Records,
@@ -100,7 +101,28 @@ struct Look<'a> {
 /// So many shards may have a part of the games that are looked at at once, or nearly.
 const KEPT: usize = 8;
 
-impl Look<'_> {
+impl<'a> Look<'a> {
+    /// By a run that names pictures as shards do.
+    pub fn new(plan: &'a Plan, run: &'a Run<'a>, records: &'a Records) -> Look<'a> {
+        Look { plan, run, records, told: Mutex::default() }
+    }
+
+    /// Whether all pictures of a shard are there, which has some of the games that are wanted of such files. All of them are
+    /// looked at, so that nothing of another's is found later.
+    ///
+    /// # Errors
+    /// Those of [`verify`].
+    pub fn is_done(&self, shard: usize, parts: &[(Batch, Wanted)]) -> Result<bool, JobError> {
+        let mut is_done = true;
+        for (batch, wanted) in parts {
+            for entry in batch.entries_of(self.run.job, &self.run.script, wanted)? {
+                let faults = self.of_game(batch, &entry?)?;
+                is_done &= faults.iter().all(|fault| fault.shard != shard);
+            }
+        }
+        Ok(is_done)
+    }
+
     /// What is wrong with pictures of games of a file.
     fn faults(&self, batch: &Batch) -> Result<Vec<Fault>, JobError> {
         let Look { plan, run, .. } = self;
@@ -113,6 +135,7 @@ impl Look<'_> {
                 .map(|(place, entry)| {
                     let entry = entry?;
                     let faults = self.of_game(batch, &entry)?;
+                    (0..entry.frames()).for_each(|_| run.progress.frame_done());
                     let faults = Some((place, faults)).filter(|(_, faults)| !faults.is_empty());
                     Ok((entry.frames(), faults.into_iter().collect()))
                 })
@@ -136,9 +159,7 @@ impl Look<'_> {
         let (file, game) = (batch.file, entry.game.number);
         let mut first = Place { file, game, frame: 0 };
         for line in entry.lines(batch) {
-            if line.is_filmed(self.run)? {
-                (0..line.part.count()).for_each(|_| self.run.progress.frame_done());
-            } else {
+            if !line.is_filmed(self.run)? {
                 self.of_line(&line, first, &mut faults)?;
             }
             first.frame += line.part.count() as u64;
@@ -177,7 +198,6 @@ impl Look<'_> {
     ) -> Vec<(usize, Flaw)> {
         let pictures = layout.planned[places].par_iter().filter(|_| !self.run.is_over());
         let flaws = pictures.filter_map(|planned| {
-            self.run.progress.frame_done();
             let path = planned.row.file().map(|file| layout.folder.join(file));
             (!witness.vouches(&planned.row)).then(|| (planned.number, flaw(path.as_deref())))
         });
