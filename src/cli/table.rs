@@ -1,7 +1,7 @@
 //! Measurements as lines for people.
 
 use lightsquare::job::{
-    Estimate, Fault, Flaw, GameMeasurement, Measurement, Planned, Verdict, in_bytes,
+    Estimate, Fault, Flaw, GameMeasurement, Measurement, PlanSummary, Verdict, in_bytes,
 };
 use lightsquare::text::printable;
 
@@ -63,9 +63,16 @@ fn time(seconds: f64) -> String {
 }
 
 /// What a plan came to.
-pub fn plan(planned: &Planned) -> String {
-    let Planned { shards, smallest, largest, within_lines, within_moves, estimate: whole, cost } =
-        planned;
+pub fn plan(planned: &PlanSummary) -> String {
+    let PlanSummary {
+        shards,
+        smallest,
+        largest,
+        within_lines,
+        within_moves,
+        estimate: whole,
+        cost,
+    } = planned;
     let share = 100.0 * cost / whole.seconds.max(1e-9);
     let torn = match within_moves {
         0 => "",

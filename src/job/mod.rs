@@ -39,8 +39,8 @@ pub use estimate::{Estimate, estimate};
 pub use export::{ExportJob, export};
 pub use inspect::{InspectJob, Listing, inspect};
 pub use plan::{
-    Fault, Flaw, MOST_SHARDS, Merged, Plan, PlanError, Planned, Verdict, merge, plan, render_shard,
-    verify,
+    Fault, Flaw, MOST_SHARDS, Merged, Plan, PlanError, PlanSummary, Verdict, merge, plan,
+    render_shard, verify,
 };
 pub use render::render;
 pub use run::{Films, RenderJob};

@@ -35,7 +35,7 @@ const SHARE: f64 = 300.0;
 
 /// What a plan came to.
 #[derive(Clone, Debug)]
-pub struct Planned {
+pub struct PlanSummary {
     pub shards: usize,
     /// Frames of the smallest shard and of the largest one.
     pub smallest: u64,
@@ -61,7 +61,7 @@ pub fn plan(
     output: &Path,
     shards: Option<usize>,
     progress: &dyn Progress,
-) -> Result<Planned, JobError> {
+) -> Result<PlanSummary, JobError> {
     refuse_unfit(job, output)?;
     let batches = survey(job, progress)?;
     keep_out(job, &batches)?;
@@ -111,7 +111,7 @@ pub fn plan(
     let count = |seam| seams.iter().filter(|found| **found == seam).count();
     let within_lines = count(Seam::Position) + count(Seam::Frame);
     let more = (estimate.whole_seconds - estimate.other_seconds).max(0.0);
-    Ok(Planned {
+    Ok(PlanSummary {
         shards,
         smallest: sizes().min().unwrap_or(0),
         largest: sizes().max().unwrap_or(0),

@@ -17,7 +17,7 @@ mod verify;
 
 pub use error::PlanError;
 pub use file::Plan;
-pub use make::{MOST_SHARDS, Planned, plan};
+pub use make::{MOST_SHARDS, PlanSummary, plan};
 pub use merge::{Merged, merge};
 pub use shard::render_shard;
 pub use verify::{Fault, Flaw, Verdict, verify};
