@@ -6,7 +6,7 @@ use super::batch::{Batch, Entry, Part};
 use super::captions::GameCaptions;
 use super::render::survey;
 use super::run::RenderJob;
-use super::settings::shown_of;
+use super::shots::Shots;
 use super::studio::Studio;
 use super::{JobError, Progress};
 use crate::game::Game;
@@ -130,32 +130,19 @@ fn sample(
         return Ok(sample);
     };
     let captions = GameCaptions::new(game, job.picture.config.captions);
-    // What the studio compares too, before it makes a picture anew.
-    let looks = |index: usize| {
-        let frame = timeline.frame(index);
-        (captions.of(&frame), shown_of(&job.picture, &frame), frame)
-    };
-    let indices: Vec<usize> = part.frames().map(|(index, _)| index).collect();
-    let mut differ = Vec::new();
-    let mut last = None;
-    for index in indices.iter().copied().take(MOST_COMPARED) {
-        let (content, shown, _) = looks(index);
-        let is_same = last
-            .as_ref()
-            .is_some_and(|(said, before)| *said == content && shown.shows_the_same(before));
-        if !is_same {
-            differ.push(index);
-        }
-        last = Some((content, shown));
-    }
-    sample.share = differ.len() as f64 / indices.len().clamp(1, MOST_COMPARED) as f64;
+    let Part { first, last, every, ref frames } = *part;
+    let compared = frames.start..frames.end.min(frames.start + MOST_COMPARED);
+    let compared = Part { first, last, frames: compared, every };
+    let shots = Shots::of(&job.picture, &timeline, &captions, &compared, script.film.fps);
+    let differ = shots.begins;
+    sample.share = differ.len() as f64 / compared.count().max(1) as f64;
     let begun = Instant::now();
     let mut frames = differ.iter().copied().skip(differ.len() / 2);
     while let Some(index) = frames.next() {
         let start = Instant::now();
-        let (content, _, frame) = looks(index);
+        let frame = timeline.frame(index);
         let coming = frames.clone().map(|index| timeline.frame(index));
-        let picture = studio.picture(&frame, content.as_ref(), coming);
+        let picture = studio.picture(&frame, captions.of(&frame).as_ref(), coming);
         if job.names.is_some() {
             sample.bytes += picture.bytes(job.format()).map_err(JobError::Write)?;
         }

@@ -185,8 +185,10 @@ impl Plan {
             return Err(cut(shards.len()));
         }
         let plan = Plan { name: name.clone(), head, shards };
-        if plan.id().ok().as_deref() != Some(&plan.head.id) || plan.shards.len() != plan.head.shards
-        {
+        let is_counted = !plan.shards.is_empty() && plan.shards.len() == plan.head.shards;
+        let places = plan.shards.iter().map(|shard| shard.begin).chain([plan.head.end]);
+        let is_as_made = plan.id().ok().as_deref() == Some(&plan.head.id);
+        if !is_counted || !places.is_sorted() || !is_as_made {
             return Err(damaged(1));
         }
         Ok(plan)

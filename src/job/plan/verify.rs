@@ -116,7 +116,8 @@ impl<'a> Look<'a> {
         let mut is_done = true;
         for (batch, wanted) in parts {
             for entry in batch.entries_of(self.run.job, &self.run.script, wanted)? {
-                let faults = self.of_game(batch, &entry?)?;
+                let entry = entry?;
+                let faults = self.run.pool.install(|| self.of_game(batch, &entry))?;
                 is_done &= faults.iter().all(|fault| fault.shard != shard);
             }
         }
@@ -177,7 +178,8 @@ impl<'a> Look<'a> {
         while begin < frames {
             let shard = plan.shard_of(Place { frame: first.frame + begin, ..first });
             let share = plan.shard(shard)?.of(first.file, first.game, u64::MAX);
-            let end = (share.end - first.frame).min(frames);
+            // Whatever a plan says, there is an end.
+            let end = share.end.saturating_sub(first.frame).clamp(begin + 1, frames);
             let sums = self.sums(shard);
             let witness = Witness::new(run.job, &inside, &sums);
             for (picture, flaw) in self.flaws(&layout, begin as usize..end as usize, &witness) {
